@@ -9,9 +9,11 @@ from __future__ import annotations
 import atexit
 import gc
 import os
+import re
 import resource
 import signal
 import sys
+from contextlib import contextmanager
 from dataclasses import replace
 from functools import cache
 from importlib import import_module
@@ -20,6 +22,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from hypothesis import HealthCheck, settings
 from support import kept, messages
+from support.folders import ROOT
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Iterator
@@ -228,9 +231,11 @@ def as_stored(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Callab
         request.node, update=request.config.getoption("--update-messages")
     )
 
+    folder = re.compile(rf"{re.escape(str(tmp_path))}|{re.escape(str(tmp_path.parent))}/[\w-]+")
+
     def compare(*errors: object) -> None:
         for error in errors:
-            so_far.hear(str(error).replace(str(tmp_path), "FOLDER"))
+            so_far.hear(folder.sub("FOLDER", str(error)).replace(str(ROOT), "PROJECT"))
 
     yield compare
     so_far.end()
@@ -238,9 +243,20 @@ def as_stored(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Callab
 
 @pytest.fixture
 def refused(as_stored: Callable[..., None]) -> Callable[..., Any]:
-    """Assert that calls raise one kind of error, and compare its messages with those stored."""
+    """Assert that calls raise one kind of error, and compare its messages with those stored.
+
+    Without calls, ``with refused(error):`` has one.
+    """
+
+    @contextmanager
+    def block(error: type[Exception]) -> Iterator[pytest.ExceptionInfo[Exception]]:
+        with pytest.raises(error) as found:
+            yield found
+        as_stored(found.value)
 
     def compare(error: type[Exception], *calls: Callable[[], object]) -> Any:
+        if not calls:
+            return block(error)
         caught = []
         for call in calls:
             with pytest.raises(error) as found:
@@ -248,6 +264,21 @@ def refused(as_stored: Callable[..., None]) -> Callable[..., Any]:
             caught.append(found.value)
         as_stored(*caught)
         return caught[0]
+
+    return compare
+
+
+@pytest.fixture
+def ends(
+    kintrafo: Callable[..., tuple[int, str, str]], as_stored: Callable[..., None]
+) -> Callable[..., None]:
+    """Assert that a command has an exit code, and compare its messages with those stored."""
+
+    def compare(code: int, *arguments: object) -> None:
+        found, out, err = kintrafo(*arguments)
+        assert found == code, err
+        assert not out or code != 2, out
+        as_stored(" ".join(re.sub("[╭─╮│╰╯]", " ", err).split()))
 
     return compare
 

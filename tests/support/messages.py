@@ -1,14 +1,21 @@
 """Messages as they were stored: one file has all, and no test repeats their sentences.
 
 A test's name describes the mistake; its messages are in `golden/messages.json` under that name.
-``pytest --update-messages`` stores the present messages: a person reads the difference.
+``pytest --update-messages`` stores the present messages: a person reads the difference. Numbers
+with a fraction or an exponent are computed, and differ by rounding on other processors.
 """
 
 import json
+import re
 from functools import cache
+from math import isclose
 from pathlib import Path
 
 FILE = Path(__file__).parents[1] / "golden/messages.json"
+
+
+COMPUTED = re.compile(r"-?\d+(?:\.\d+(?:e[-+]?\d+)?|e[-+]?\d+)")
+"""A number that may be rounded differently."""
 
 
 @cache
@@ -20,6 +27,26 @@ def stored():
 def key_of(item):
     """Return the key of a test among the stored messages: its file and its name."""
     return f"{item.path.stem}{item.nodeid.partition('.py')[2]}"
+
+
+def alike(text, other):
+    """Return whether two messages differ only by rounding of the numbers in them.
+
+    Numbers may differ by one unit of the last digit shown, by a thousandth, or by 1e-9: what is
+    singular is zero but for rounding.
+    """
+    if COMPUTED.sub("#", text) != COMPUTED.sub("#", other):
+        return False
+    pairs = zip(COMPUTED.findall(text), COMPUTED.findall(other), strict=True)
+    return all(
+        isclose(float(one), float(two), rel_tol=1e-3, abs_tol=max(1e-9, 1.01 * _last_digit(one)))
+        for one, two in pairs
+    )
+
+
+def _last_digit(number):
+    digits, _, exponent = number.partition("e")
+    return 10.0 ** (int(exponent or 0) - len(digits.partition(".")[2]))
 
 
 class StoredMessages:
@@ -41,7 +68,8 @@ class StoredMessages:
 
     def hear(self, text):
         """Compare one more message."""
-        self.shown.append(text)
+        known = self.known[len(self.shown) : len(self.shown) + 1]
+        self.shown.append(known[0] if known and alike(text, known[0]) else text)
         if not self.update:
             so_far = self.known[: len(self.shown)]
             assert self.shown == so_far, "if on purpose: pytest --update-messages"

@@ -170,13 +170,10 @@ def test_a_quarter_car_rests_on_its_spring(quarter):
     assert raised[1] == pytest.approx(state[1], abs=1e-12)
 
 
-def test_a_car_without_rest_is_refused():
+def test_a_car_without_rest_is_refused(refused):
     car = Car.load("quarter_car")
     heavy = car.with_changes({"body.mass_kg": 4000.0})
-    with pytest.raises(
-        kintrafo.PositionError, match="equilibrium is not stable: the car tips over"
-    ):
-        kintrafo.equilibrium(CarModel(heavy))
+    refused(kintrafo.PositionError, lambda: kintrafo.equilibrium(CarModel(heavy)))
 
 
 @pytest.mark.parametrize("motion", ["heave", "pitch", "roll"])
@@ -198,8 +195,8 @@ def test_characteristics_are_those_of_the_axles(motion):
     assert np.isnan(found["bar_torque"].sel(axle="rear")).all()
 
 
-def test_other_analyses_refuse_a_car():
+def test_other_analyses_refuse_a_car(refused):
     car = Car.load("reference_vehicle")
     for analysis in (kintrafo.checkup.checkup, kintrafo.loads.static):
-        with pytest.raises(kintrafo.InputError, match="this is a whole car"):
+        with refused(kintrafo.InputError):
             analysis(car)

@@ -32,7 +32,7 @@ def test_a_packaged_car_drives():
     assert unused[:3] == ("[tyres]", "[brakes], except front_share", "[air]")
 
 
-def test_tyres_are_files_beside_the_car_or_tables(tmp_path):
+def test_tyres_are_files_beside_the_car_or_tables(tmp_path, refused):
     tyre = kintrafo.tyres.load("passenger_205_55")
     kintrafo.tyres.write_tir(tyre, tmp_path / "own.tir")
     data = FILE | {"tyres": {"front": "own.tir", "rear": TYRE}}
@@ -43,8 +43,7 @@ def test_tyres_are_files_beside_the_car_or_tables(tmp_path):
     assert (again.to_dict(), again.tyres) == (car.to_dict(), car.tyres)
     slippery = car.with_changes({"tyres.rear.friction": 0.3, "tyres.front": tyre})
     assert (slippery.tyre("rear_right").friction, car.tyre("rear_right").friction) == (0.3, 1.1)
-    with pytest.raises(kintrafo.InputError, match="is a tyre from Python"):
-        slippery.save(tmp_path / "slippery.toml")
+    refused(kintrafo.InputError, lambda: slippery.save(tmp_path / "slippery.toml"))
 
 
 @pytest.mark.parametrize(
@@ -73,10 +72,9 @@ def test_what_contradicts_itself_is_refused(changes, refused):
 
 
 @pytest.mark.parametrize("key", ["inertia_zz_kg_m2", "inertia_xx_kg_m2"])
-def test_a_missing_moment_of_inertia_is_named(key):
+def test_a_missing_moment_of_inertia_is_named(key, refused):
     body = {name: value for name, value in FILE["body"].items() if name != key}
-    with pytest.raises(kintrafo.InputError, match=rf"\[body\] {key} is missing"):
-        Car.from_dict(FILE | {"body": body})
+    refused(kintrafo.InputError, lambda: Car.from_dict(FILE | {"body": body}))
 
 
 def on_a_rigid_axle():

@@ -79,15 +79,13 @@ class TestOpenCrg:
         np.testing.assert_allclose(road.left, 0.02 * along**2 + 0.03 * 0.75, atol=2e-6)
         np.testing.assert_allclose(road.right, 0.02 * along**2 - 0.03 * 0.75, atol=2e-6)
 
-    def test_gaps_and_narrow_roads_are_refused(self, tmp_path):
+    def test_gaps_and_narrow_roads_are_refused(self, tmp_path, refused):
         pytest.importorskip("pyopencrg")
         heights = np.zeros((9, 5))
         path = self.file(tmp_path, heights)
-        with pytest.raises(InputError, match="wide enough"):
-            road_profiles.read(path, track=2.5)
+        refused(InputError, lambda: road_profiles.read(path, track=2.5))
         heights[3, 1] = np.nan
-        with pytest.raises(InputError, match="no height"):
-            road_profiles.read(self.file(tmp_path, heights), track=1.5)
+        refused(InputError, lambda: road_profiles.read(self.file(tmp_path, heights), track=1.5))
 
     def test_a_file_that_is_none_is_refused(self, tmp_path):
         pytest.importorskip("pyopencrg")

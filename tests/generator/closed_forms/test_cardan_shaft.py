@@ -61,7 +61,7 @@ def turn_about_x(axes):
     return atan2(axes[2, 1], axes[1, 1])
 
 
-def test_a_shaft_at_a_right_angle_to_the_pinion_is_refused():
+def test_a_shaft_at_a_right_angle_to_the_pinion_is_refused(refused):
     """The bracket swings until the shaft is there, from a bend of 80 degrees on."""
     model = column("swung", 0.0, radians(-80), 0.0, swinging=True)
     built, _ = answers(model)
@@ -75,21 +75,18 @@ def test_a_shaft_at_a_right_angle_to_the_pinion_is_refused():
 
     there = brentq(bend, -0.5, 0.0, xtol=1e-15)
     assert np.isfinite(built("relative_coordinates", np.array([0.9 * there, 0, 0, 0]))).all()
-    with pytest.raises(ValueError, match="bent too far at universal joint lower_cross"):
-        built("relative_coordinates", np.array([there, 0.0, 0.0, 0.0]))
+    refused(ValueError, lambda: built("relative_coordinates", np.array([there, 0.0, 0.0, 0.0])))
 
 
-def test_a_shaft_along_the_fork_of_the_column_is_refused():
+def test_a_shaft_along_the_fork_of_the_column_is_refused(refused):
     built, _ = answers(column("square", radians(90), 0.2, 0.0))
     assert np.isfinite(built("relative_coordinates", np.array([1.5, 0.0]))).all()
-    with pytest.raises(ValueError, match=r"upper lies along the first axis of .* upper_cross"):
-        built("relative_coordinates", np.array([pi / 2, 0.0]))
+    refused(ValueError, lambda: built("relative_coordinates", np.array([pi / 2, 0.0])))
 
 
-def test_a_pinion_across_its_shaft_is_refused_at_the_design_position():
+def test_a_pinion_across_its_shaft_is_refused_at_the_design_position(refused):
     built, _ = answers(column("stopped", 0.2, radians(90), 0.0))
-    with pytest.raises(ParameterError, match="does not turn pinion"):
-        built("relative_coordinates", np.zeros(2))
+    refused(ParameterError, lambda: built("relative_coordinates", np.zeros(2)))
 
 
 def test_a_bearing_that_moves_as_given_moves_the_pinion(tmp_path):
@@ -174,10 +171,7 @@ def test_shafts_in_a_row_go_round_as_the_oracle_says(tmp_path):
 
 def test_a_guide_beside_the_line_of_the_crosses_is_reported_by_how_much():
     model = column("askew", 0.3, 0.3, 0.0, along=(1.0, 0.0, 0.02))
-    message = (
-        f"guide spline of upper and lower must be along .*{degrees(np.arctan(0.02)):.3g} degrees"
-    )
-    with pytest.raises(DeclarationError, match=message):
+    with pytest.raises(DeclarationError, match=f"spline .*{degrees(np.arctan(0.02)):.3g} degrees"):
         generate(model, derivatives=False)
 
 
@@ -187,14 +181,9 @@ def test_a_guide_of_its_own_direction_counts_along_it(sense, tmp_path):
     check_with_the_oracle(model, tmp_path, 0.5)
 
 
-def test_a_hinge_beside_its_cross_is_reported_by_how_much():
+def test_a_hinge_beside_its_cross_is_reported_by_how_much(refused):
     model = column("beside", 0.3, 0.3, 0.0, beside=0.004)
-    message = r"hinge rolling must go through the centre lower_center .* 4 mm"
-    with pytest.raises(DeclarationError, match=message):
-        generate(model, derivatives=False)
-
-
-BETWEEN = r"Only the crosses '\w+' and '\w+' hold '{}'\. {}"
+    refused(DeclarationError, lambda: generate(model, derivatives=False))
 
 
 @pytest.mark.parametrize("allowed", [False, True], ids=["closed form", "iteration"])
@@ -205,12 +194,11 @@ def test_what_is_no_such_shaft_is_refused_with_a_remedy(links, refused, *, allow
     refused(NoClosedFormError, lambda: CataloguePlan.of(model))
 
 
-def test_a_rod_with_two_crosses_holds_no_carrier_by_iteration():
+def test_a_rod_with_two_crosses_holds_no_carrier_by_iteration(refused):
     """Its second cross would be one equation more, which used to be left out."""
     model = next(m for m in held_by_rods.MODELS if m.name == "control_arm_multi_link")
     ball = model.mechanism.joint("toe_link_ball")
     way = model.mechanism.joint("toe_link_cross").shaft
     crossed = Universal(ball.name, ball.first, ball.second, ball.at, way, Direction("z", (0, 0, 1)))
     CataloguePlan.of(model)
-    with pytest.raises(NoClosedFormError, match=BETWEEN.format("toe_link", "As a rod")):
-        CataloguePlan.of(changed(model, (ball, crossed)))
+    refused(NoClosedFormError, lambda: CataloguePlan.of(changed(model, (ball, crossed))))

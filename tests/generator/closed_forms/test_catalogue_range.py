@@ -336,7 +336,7 @@ def test_to_the_end_of_the_range(name, side, loop):
 
 
 @pytest.mark.parametrize("off", [1e-1, 1e-3, 1e-5, 1e-7])
-def test_a_shaft_next_to_the_first_axis_of_its_cross(off, loop):
+def test_a_shaft_next_to_the_first_axis_of_its_cross(off, loop, refused):
     """The cross is singular there; its rotation is as exact as the distance from that allows.
 
     Where that is worse than 1e-9 in the worst case, within some 1e-5 rad, it is refused.
@@ -356,8 +356,7 @@ def test_a_shaft_next_to_the_first_axis_of_its_cross(off, loop):
         now = crossed(shaft, turned(line, drive, axis))
         state, inputs = case.state(float(drive))
         if off <= 1e-5:
-            with pytest.raises(built.module.ClosureError, match="lies along the first axis"):
-                built("orientations", state, inputs)
+            refused(built.module.ClosureError, lambda: built("orientations", state, inputs))
             return
         found = built("orientations", state, inputs)[list(built.module.BODIES).index("rod")]
         left = [f - e for f, e in zip(found.ravel(), (now @ start.T).ravel(), strict=True)]

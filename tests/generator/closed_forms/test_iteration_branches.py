@@ -151,15 +151,15 @@ def test_a_range_ends_where_its_branch_does():
 
 
 @pytest.mark.parametrize("travel", [-0.012, -0.0135, -0.015, -0.04, -0.08])
-def test_positions_on_another_branch_are_refused(travel):
+def test_positions_on_another_branch_are_refused(travel, refused):
     model = two_branches()
-    with pytest.raises(PositionError, match=r"from 286\.59 mm .*that is -11\.9\d mm to"):
-        state_at_height(model, design_height(model) + travel, rack_position=RACK)
-    with pytest.raises(PositionError, match="out of reach"):
-        characteristics.over(model, "travel", [0.0, travel], rack_position=RACK)
+    refused(
+        PositionError,
+        lambda: state_at_height(model, design_height(model) + travel, rack_position=RACK),
+        lambda: characteristics.over(model, "travel", [0.0, travel], rack_position=RACK),
+    )
     case = {"travel_mm": 1e3 * travel, "rack_mm": 1e3 * RACK}
-    with pytest.raises(PositionError, match=r"out of reach: from 286\.59 mm"):
-        loads.static(model, {"case": case})
+    refused(PositionError, lambda: loads.static(model, {"case": case}))
 
 
 def test_positions_on_another_branch_are_no_part_of_a_batch():

@@ -208,14 +208,13 @@ def test_anywhere_it_closes_or_says_so(model, built):
     assert outcomes == {"closed"} | ({"refused"} if model.name not in rounds else set())
 
 
-def test_a_chain_that_moves_by_its_dimensions_alone_is_refused_with_others(built):
+def test_a_chain_that_moves_by_its_dimensions_alone_is_refused_with_others(built, refused):
     """Without Bricard's symmetry the loop closes at the design position alone."""
     compiled = built(BRICARD)
     parameters = dict(compiled.parameters)
     parameters["place_3_x"] += 1e-3
     broken = replace(compiled, parameters=parameters)
-    with pytest.raises(ClosureError, match="hinge_5 cannot meet with any coordinates of hinge_1"):
-        broken("rhs", np.array([0.3, 0.0]))
+    refused(ClosureError, lambda: broken("rhs", np.array([0.3, 0.0])))
 
 
 def test_report_names_joints_and_equations(derive):
@@ -229,36 +228,19 @@ def test_report_names_joints_and_equations(derive):
 # -- errors ---------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("model", "words"),
-    [
-        (SEVEN_HINGES, r"Closed at hinge_6, 1 loop\(s\) leave 5 equations for the 5 unk"),
-        (BRICARD, r"Closed at hinge_5, 1 loop\(s\) leave 5 equations for the 4 unknown"),
-        (
-            iterated_loops.PLATE_ON_A_PIN,
-            r"at plate_pin, rod, 2 loop\(s\) leave 3 equations for the 3",
-        ),
-        (iterated_loops.BALL_RING, r"ball_2, 1 loop\(s\) leave 3 equations for the 3 unknown"),
-    ],
-)
-def test_without_permission_the_loop_is_refused(model, words):
-    with pytest.raises(NoClosedFormError, match=words) as caught:
-        CataloguePlan.of(replace(model, allow_iteration=False))
-    assert "declared with allow_iteration=True" in str(caught.value)
+def test_without_permission_the_loop_is_refused(refused):
+    for model in (SEVEN_HINGES, BRICARD, iterated_loops.PLATE_ON_A_PIN, iterated_loops.BALL_RING):
+        with refused(NoClosedFormError):
+            CataloguePlan.of(replace(model, allow_iteration=False))
 
 
-def test_six_hinges_in_general_cannot_move():
+def test_six_hinges_in_general_cannot_move(refused):
     """Bricard's chain with another place of a hinge: recognised before anything is derived."""
     model = with_default(BRICARD, place_3_x=-0.25)
-    with pytest.raises(
-        NoClosedFormError, match="they cannot move from the design position"
-    ) as caught:
-        CataloguePlan.of(model)
-    assert "leave 5 equations for the 4 unknown coordinates" in str(caught.value)
-    assert "allow_iteration" not in str(caught.value)
+    refused(NoClosedFormError, lambda: CataloguePlan.of(model))
 
 
-def test_a_dead_point_at_design_is_refused():
+def test_a_dead_point_at_design_is_refused(refused):
     """Bar, rod and block push on the plate along lines through one point: it turns about that."""
     places = {  # the point is at 0.3, 0.3 of the plane
         "rod_start": askew(0.3, 0.5),  # the rod ends at 0.3, 0.38
@@ -266,8 +248,10 @@ def test_a_dead_point_at_design_is_refused():
         "slot_direction": heading(np.arctan2(0.2, 0.3)),  # the block hinges at 0.5, 0.0
     }
     changes = {f"{n}_{a}": c for n, p in places.items() for a, c in zip("xyz", p, strict=True)}
-    with pytest.raises(NoClosedFormError, match="a dead point, or something else must be driven"):
-        CataloguePlan.of(with_default(iterated_loops.PLATE_ON_A_SLOT, **changes))
+    refused(
+        NoClosedFormError,
+        lambda: CataloguePlan.of(with_default(iterated_loops.PLATE_ON_A_SLOT, **changes)),
+    )
 
 
 def test_too_many_unknowns_are_refused():

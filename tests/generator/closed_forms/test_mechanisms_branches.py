@@ -202,7 +202,7 @@ def test_beyond_a_dead_point_the_loop_is_named(kind, side):
     for beyond in (1e-9, 1e-3, 0.1):
         state = np.array([dead.angle - dead.inward * beyond, 1.0])
         for function in ("rhs", "rhs_jacobian", "positions", "velocities", "relative_coordinates"):
-            with pytest.raises(dead.built.module.ClosureError, match="cannot close") as error:
+            with pytest.raises(dead.built.module.ClosureError) as error:
                 dead.built(function, state)
             assert dead.guard in error.value.margins
         margins = dict(
@@ -255,16 +255,16 @@ def test_a_pin_on_the_hinge_is_named():
     built("positions", meeting + np.array([0.1, 0.0]))  # beside it all is well
 
 
-def test_degenerate_lengths_are_refused():
+def test_degenerate_lengths_are_refused(refused):
     nothing = {"rocker_pin_x": 0.3, "rocker_pin_y": 0.0}  # on the rocker's own bearing
     built = Built.of(FOUR_BARS[0], four_bar, nothing)
-    with pytest.raises(built.module.ParameterError, match="rocker_pin is on the line about which"):
+    with refused(built.module.ParameterError):
         _ = built.constants
 
 
-def test_a_design_at_a_dead_point_is_refused():
+def test_a_design_at_a_dead_point_is_refused(refused):
     # coupler and rocker in line: no side to be on, which only rounding would choose
     flat = {"crank_pin_y": 0.0, "crank_pin_x": 0.1, "rocker_pin_y": 0.0}
     built = Built.of(FOUR_BARS[0], four_bar, flat | {"rocker_pin_x": 0.2})
-    with pytest.raises(built.module.ParameterError, match="coupler is at its dead point"):
+    with refused(built.module.ParameterError):
         _ = built.constants

@@ -251,7 +251,7 @@ def test_beyond_the_end_the_loop_is_named(built, which):
     for beyond in (1e-9, 1e-3, 0.05):
         state = np.array([end.driven - end.inward * beyond, 1.0])
         for function in ("rhs", "rhs_jacobian", "positions", "relative_coordinates"):
-            with pytest.raises(built.module.ClosureError, match="cannot close") as error:
+            with pytest.raises(built.module.ClosureError) as error:
                 built(function, state)
             assert error.value.margins[end.guard] < 0.0
 
@@ -286,9 +286,9 @@ def test_equations_of_motion_before_the_end(built, which, before):
 
 @needs_gcc
 @pytest.mark.parametrize("built", ["bore"], indirect=True)
-def test_a_cylinder_drawn_in_beyond_its_pins_is_named(built):
+def test_a_cylinder_drawn_in_beyond_its_pins_is_named(built, refused):
     at_once = Built.of(built.model, built.module, {"piston_pin_x": BASE, "piston_pin_y": 0.2})
-    with pytest.raises(built.module.ClosureError, match="drawn in until its pins") as error:
+    with refused(built.module.ClosureError) as error:
         at_once("rhs", np.array([-0.2, 0.0]))
     assert error.value.margins["barrel_extension"] < 0.0
 
@@ -358,7 +358,7 @@ def evaluated(derived, state):
     return np.array([float(x) for x in python(derived.functions["rhs"])(values)])
 
 
-def test_known_telescope_in_space_is_refused_by_name():
+def test_known_telescope_in_space_is_refused_by_name(refused):
     """A guide does not say where its line is: in space a telescope is a cylindrical joint."""
     model = crane("bore")
     pivot = model.mechanism.joint("pivot")
@@ -372,5 +372,7 @@ def test_known_telescope_in_space_is_refused_by_name():
     )
     coordinates = tuple(c for c in model.mechanism.coordinates if c.joint.name == "bore")
     mechanism = replace(model.mechanism, coordinates=coordinates)
-    with pytest.raises(NoClosedFormError, match="ground - barrel - piston - boom"):
-        CataloguePlan.of(changed(replace(model, mechanism=mechanism), *pins))
+    refused(
+        NoClosedFormError,
+        lambda: CataloguePlan.of(changed(replace(model, mechanism=mechanism), *pins)),
+    )

@@ -51,16 +51,14 @@ def test_what_can_drive_it_is_found():
     assert {("swing", f"axle_{i}") for i in range(3)} <= set(found)
 
 
-def test_a_crank_that_is_not_parallel_is_reported_by_how_much():
+def test_a_crank_that_is_not_parallel_is_reported_by_how_much(refused):
     bent = with_default(locomotive("bent"), pin_2_x=1.9)
-    with pytest.raises(g.DeclarationError, match=r"wheel2 and wheel0 hold rod .*off by .* mm"):
-        derive(bent, derivatives=False)
+    refused(g.DeclarationError, lambda: derive(bent, derivatives=False))
 
 
-def test_parameters_that_lock_it_are_refused():
+def test_parameters_that_lock_it_are_refused(refused):
     model = own(locomotive(), arrays=True, derivatives=False)
-    with pytest.raises(ParameterError, match="not parallel and equally long, so that nothing"):
-        kintrafo.System(model, {"bearing_1_z": 0.5})
+    refused(ParameterError, lambda: kintrafo.System(model, {"bearing_1_z": 0.5}))
 
 
 LOCKED = {
@@ -93,7 +91,7 @@ def test_in_whatever_order_links_are_declared_they_are_refused():
         joints = model.mechanism.joints
         for order in (joints, joints[::-1]):
             turned = replace(model, mechanism=replace(model.mechanism, joints=order))
-            with pytest.raises(NoClosedFormError, match=r"Leave link\d, link\d out"):
+            with pytest.raises(NoClosedFormError, match=r"link\d, link\d"):
                 CataloguePlan.of(turned)
 
 
@@ -117,25 +115,23 @@ def test_a_frame_that_is_one_more_parallel_link_moves_with_them(driven, tmp_path
     check_with_the_oracle(model, tmp_path, pi)
 
 
-def test_a_frame_that_is_no_longer_parallel_is_refused_by_its_name():
+def test_a_frame_that_is_no_longer_parallel_is_refused_by_its_name(refused):
     model = own(double_crank("double_crank"), arrays=True, derivatives=False)
-    with pytest.raises(ParameterError, match="link0 and frame hold rocker on crank"):
-        kintrafo.System(model, {"d_x": 0.5})
+    refused(ParameterError, lambda: kintrafo.System(model, {"d_x": 0.5}))
 
 
 def test_links_on_the_same_pins_turn_with_the_first(tmp_path):
     check_with_the_oracle(double_crank("same", PINS[:1] * 3, lean=0.05), tmp_path, 0.5)
 
 
-def test_links_whose_pins_are_no_longer_the_same_are_refused():
+def test_links_whose_pins_are_no_longer_the_same_are_refused(refused):
     model = own(double_crank("same", PINS[:1] * 3, lean=0.05), arrays=True, derivatives=False)
     moved = {
         f"{pin}_1_{x}": kintrafo.System(model).parameters[f"{pin}_0_{x}"] + 0.01
         for pin in "bc"
         for x in "xyz"
     }  # parallel and equally long all the same
-    with pytest.raises(ParameterError, match=r"pins are not the same.*leave link1 out"):
-        kintrafo.System(model, moved)
+    refused(ParameterError, lambda: kintrafo.System(model, moved))
 
 
 def test_a_table_that_guides_keep_from_turning_has_links(tmp_path):

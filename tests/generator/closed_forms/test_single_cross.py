@@ -41,11 +41,10 @@ def test_crosses_in_a_row_on_bodies_that_move(tmp_path):
     check_with_the_oracle(model, tmp_path, 0.4)
 
 
-def test_beyond_a_right_angle_it_is_refused():
+def test_beyond_a_right_angle_it_is_refused(refused):
     model = crosses_in_a_row()
     built = Built.of(model, own(model, derivatives=False))
-    with pytest.raises(ClosureError, match="middle is bent too far at universal joint cross_2"):
-        built("rhs", np.array([0.0, 1.0, 1.5, 0.0, 0.0, 0.0]))
+    refused(ClosureError, lambda: built("rhs", np.array([0.0, 1.0, 1.5, 0.0, 0.0, 0.0])))
 
 
 def test_a_hinge_that_misses_the_center_is_refused():
@@ -58,7 +57,7 @@ def test_a_hinge_that_misses_the_center_is_refused():
         CataloguePlan.of(changed(model, (rolling, moved)))
 
 
-def test_numbers_that_take_a_hinge_off_the_center_are_refused():
+def test_numbers_that_take_a_hinge_off_the_center_are_refused(refused):
     """The point of the hinge is one of its own, at the same place."""
     model = crosses_in_a_row()
     rolling = model.mechanism.joint("rolling")
@@ -66,8 +65,7 @@ def test_numbers_that_take_a_hinge_off_the_center_are_refused():
     meeting = replace(rolling, axis=Line(own_point, rolling.axis.towards))
     same = replace(changed(model, (rolling, meeting)), name="meeting_by_numbers")
     built = own(same, arrays=True, derivatives=False)
-    with pytest.raises(ParameterError, match="rolling must go through the centre second_center"):
-        System(built, {"own_point_y": 0.22})
+    refused(ParameterError, lambda: System(built, {"own_point_y": 0.22}))
 
 
 def with_crosses(model, name):

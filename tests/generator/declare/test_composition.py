@@ -155,19 +155,21 @@ def test_what_a_copy_does_not_know(asked, refused):
     refused(g.DeclarationError, lambda: g.Copy(macpherson.mechanism(), "left_", **asked))
 
 
-def test_a_direction_that_the_mirror_would_turn_both_ways():
+def test_a_direction_that_the_mirror_would_turn_both_ways(refused):
     source = macpherson.mechanism()
     hinge = source.joint("OA")
     skew = replace(hinge, axis=g.Line(hinge.axis.through, macpherson.RACK_AXIS))
-    with pytest.raises(g.DeclarationError, match="'rack_axis' is an axis of rotation and"):
-        g.Copy(changed(source, (hinge, skew)), "left_", mirrored=True)
+    refused(
+        g.DeclarationError, lambda: g.Copy(changed(source, (hinge, skew)), "left_", mirrored=True)
+    )
 
 
-def test_a_prefix_that_makes_the_name_of_a_parameter():
+def test_a_prefix_that_makes_the_name_of_a_parameter(refused):
     source = macpherson.mechanism()
     clash = replace(macpherson.TYRE_RATE, name="left_spring_rate")
-    with pytest.raises(g.DeclarationError, match="'left_spring_rate' is the name of a"):
-        g.Copy(changed(source, (macpherson.TYRE_RATE, clash)), "left_")
+    refused(
+        g.DeclarationError, lambda: g.Copy(changed(source, (macpherson.TYRE_RATE, clash)), "left_")
+    )
 
 
 # -- twist -----------------------------------------------------------------------------------------

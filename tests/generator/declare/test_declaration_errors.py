@@ -103,10 +103,9 @@ class TestForces:
         RUSR, forces=(g.JointForce(ROCKER, g.Input("torque", "N m", "torque on the rocker")),)
     )
 
-    def test_along_a_joint_that_follows(self):
+    def test_along_a_joint_that_follows(self, refused):
         """It would not appear in any equation."""
-        with pytest.raises(g.DeclarationError, match=r"'D' is neither independent .* an Actuator"):
-            model(self.PUSHED, "A")
+        refused(g.DeclarationError, lambda: model(self.PUSHED, "A"))
 
     def test_such_joints_are_proposed_as_independent(self):
         assert [p.independent for p in kintrafo.proposals(self.PUSHED)] == [("D",)]
@@ -117,38 +116,36 @@ class TestRods:
     BALL_AT_CRANK = g.Spherical("B", CRANK_BODY, ROD, at=ROD_START)
     RSSR = spatial(CRANK, BALL_AT_CRANK, BALL, ROCKER)
 
-    def test_with_mass_between_two_ball_joints(self):
-        with pytest.raises(
-            g.DeclarationError, match=r"'rod' may turn about .*'B' and 'C'.*second="
-        ):
-            model(self.RSSR, "A")
+    def test_with_mass_between_two_ball_joints(self, refused):
+        refused(g.DeclarationError, lambda: model(self.RSSR, "A"))
 
     def test_without_mass_the_turn_is_no_degree_of_freedom(self):
         light = model(self.RSSR, "A", massive=(CRANK_BODY, ROCKER_BODY))
         assert [p.independent for p in kintrafo.proposals(light)] == [("A",), ("D",)]
 
-    def test_the_turn_is_not_counted_in_a_refusal(self):
+    def test_the_turn_is_not_counted_in_a_refusal(self, refused):
         light = model(self.RSSR, "A", "D", massive=(CRANK_BODY, ROCKER_BODY))
-        with pytest.raises(kintrafo.MechanismError, match=r"1 degree\(s\) .* declare 1 fewer.*'A'"):
-            kintrafo.compile(light)
+        refused(kintrafo.MechanismError, lambda: kintrafo.compile(light))
 
 
 class TestNames:
     @pytest.mark.parametrize("name", ["gate 2", "2nd", "café", ""])
-    def test_of_models_and_mechanisms(self, name):
+    def test_of_models_and_mechanisms(self, name, refused):
         for named in (RUSR, model(RUSR, "A"), ROD, RUSR.parameters[0], CRANK):
-            with pytest.raises(g.DeclarationError, match=r"name .* cannot be written in C; use"):
+            with refused(g.DeclarationError):
                 replace(named, name=name)
 
-    def test_of_force_elements(self):
+    def test_of_force_elements(self, refused):
         (spring,) = FOUR_BAR.elements
-        with pytest.raises(g.DeclarationError, match="name 'my spring' cannot be written"):
-            replace(FOUR_BAR, forces=(replace(spring, name="my spring"),))
+        refused(
+            g.DeclarationError,
+            lambda: replace(FOUR_BAR, forces=(replace(spring, name="my spring"),)),
+        )
 
 
 class TestTexts:
     @pytest.mark.parametrize("text", ["two\nlines", "N*/m", '"""', "\\N"])
-    def test_that_would_end_a_comment(self, text):
+    def test_that_would_end_a_comment(self, text, refused):
         (entry, *_) = RUSR.coordinates
         torque = g.JointForce(CRANK, g.Input("torque", "N m", text))
         point = replace(CRANK_PIN, meaning=text)
@@ -159,19 +156,15 @@ class TestTexts:
             lambda: replace(RUSR, forces=(torque,)),
             lambda: replace(RUSR, outputs=(g.PositionOf("pin", ROD, CRANK_PIN, text),)),
         ):
-            with pytest.raises(g.DeclarationError, match="cannot be in a comment"):
+            with refused(g.DeclarationError):
                 make()
-        with pytest.raises(g.DeclarationError, match="title of the model: the text"):
-            replace(model(RUSR, "A"), title=text)
+        refused(g.DeclarationError, lambda: replace(model(RUSR, "A"), title=text))
 
 
 class TestNumbers:
     @pytest.mark.parametrize("value", [float("nan"), float("inf"), "1.0", None, 1j])
-    def test_that_are_none(self, value):
-        with pytest.raises(
-            g.DeclarationError, match=r"'crank_pin_x':\n.* is not a finite real number"
-        ):
-            replace(RUSR.parameters[0], default=value)
+    def test_that_are_none(self, value, refused):
+        refused(g.DeclarationError, lambda: replace(RUSR.parameters[0], default=value))
 
     @pytest.mark.parametrize(
         "body",
@@ -203,19 +196,14 @@ class TestNumbers:
 
 
 class TestJoints:
-    def test_of_a_body_with_itself(self):
-        with pytest.raises(g.DeclarationError, match="connects 'ground' with itself"):
-            replace(CRANK, second=GROUND)
+    def test_of_a_body_with_itself(self, refused):
+        refused(g.DeclarationError, lambda: replace(CRANK, second=GROUND))
 
-    def test_of_the_angles_of_a_ball_joint_none_can_be_reported(self):
-        with pytest.raises(g.DeclarationError, match=r"'turn':\n.*'C'.*its angles have no names"):
-            g.RelativeCoordinate("turn", BALL, "x", "turn")
+    def test_of_the_angles_of_a_ball_joint_none_can_be_reported(self, refused):
+        refused(g.DeclarationError, lambda: g.RelativeCoordinate("turn", BALL, "x", "turn"))
 
-    def test_a_coordinate_is_one_of_its_joint(self):
-        with pytest.raises(
-            g.DeclarationError, match=r"kind 'slide' is not a coordinate of 'A'.*there are angle"
-        ):
-            g.RelativeCoordinate("slide", CRANK, "slide", "slide")
+    def test_a_coordinate_is_one_of_its_joint(self, refused):
+        refused(g.DeclarationError, lambda: g.RelativeCoordinate("slide", CRANK, "slide", "slide"))
 
     def test_none_reported_at_the_ground(self, tmp_path):
         """A boom moved by its cylinder, of which the stroke alone is reported."""
@@ -266,23 +254,20 @@ def place_of(system, body, point_at_design, state):
 
 
 class TestPoses:
-    def test_the_rod_is_the_second_body_of_a_cross(self):
+    def test_the_rod_is_the_second_body_of_a_cross(self, refused):
         wrong = replace(CROSS, first=ROD, second=CRANK_BODY)
         mechanism = spatial(CRANK, wrong, BALL, ROCKER)
-        with pytest.raises(kintrafo.MechanismError, match="'crank' first and 'rod' second in the"):
-            kintrafo.compile(model(mechanism, "A"))
+        refused(kintrafo.MechanismError, lambda: kintrafo.compile(model(mechanism, "A")))
 
-    def test_the_joint_that_would_determine_one_is_named(self):
+    def test_the_joint_that_would_determine_one_is_named(self, refused):
         lever = g.Body("lever", 1.0, (0.4, 0.2, 0.3), (0.01, 0.01, 0.01))
         pin = g.Revolute("E", ROCKER_BODY, lever, axis=g.Line(ROD_END, ROCKER_PIN))
         mechanism = replace(RUSR, joints=(*RUSR.joints, pin))
-        with pytest.raises(kintrafo.MechanismError, match="pose of lever; declare joint 'E' indep"):
-            kintrafo.compile(model(mechanism, "A"))
+        refused(kintrafo.MechanismError, lambda: kintrafo.compile(model(mechanism, "A")))
 
-    def test_a_body_that_hangs_at_a_ball_joint(self):
+    def test_a_body_that_hangs_at_a_ball_joint(self, refused):
         mechanism = spatial(CRANK, g.Spherical("B", CRANK_BODY, ROD, at=ROD_START), reported=("A",))
-        with pytest.raises(kintrafo.MechanismError, match=r"rod; joint 'B' is spherical, .* three"):
-            kintrafo.compile(model(mechanism, "A"))
+        refused(kintrafo.MechanismError, lambda: kintrafo.compile(model(mechanism, "A")))
 
 
 # -- proposals -------------------------------------------------------------------------------------
@@ -365,39 +350,24 @@ class TestProposals:
 
 
 class TestRefusals:
-    def test_of_a_choice_name_those_that_close(self):
-        with pytest.raises(kintrafo.MechanismError) as caught:
-            kintrafo.compile(model(stephenson("A", "G"), "G"))
-        message = str(caught.value)
-        assert "A/B leaves 1 equation(s) in 2 unknown(s)" in message
-        assert "declared with allow_iteration=True" in message
-        assert message.endswith("Every loop has a closed form with independent=('A',).")
+    def test_of_a_choice_name_those_that_close(self, refused):
+        refused(kintrafo.MechanismError, lambda: kintrafo.compile(model(stephenson("A", "G"), "G")))
 
-    def test_of_a_choice_that_has_no_better_one(self):
-        with pytest.raises(kintrafo.MechanismError, match=r"no 1 of the reported .* \(G; 1 set"):
-            kintrafo.compile(model(stephenson("G"), "G"))
+    def test_of_a_choice_that_has_no_better_one(self, refused):
+        refused(kintrafo.MechanismError, lambda: kintrafo.compile(model(stephenson("G"), "G")))
 
-    def test_of_a_mechanism_have_loop_pairs_equations_and_remedy(self):
-        with pytest.raises(kintrafo.MechanismError) as caught:
-            kintrafo.compile(MULTI_LINKS[0].mechanism)
-        message = str(caught.value)
-        names = "('lower_hinge', 'rack_guide', 'bearing')"
-        assert f"declare a Formulation with independent={names} and allow_iteration=True" in message
-        assert "the loop chassis - lower_arm - carrier - upper_link (joints lower_hinge" in message
-        assert "lower_ball/upper_link_ball leaves 1 equation(s) in 2 unknown(s)" in message
-        assert "carrier is held by upper_link, camber_link, toe_link together" in message
+    def test_of_a_mechanism_have_loop_pairs_equations_and_remedy(self, refused):
+        refused(kintrafo.MechanismError, lambda: kintrafo.compile(MULTI_LINKS[0].mechanism))
 
-    def test_too_few_coordinates_are_reported(self):
-        with pytest.raises(kintrafo.MechanismError, match=r"mobility 1: 1 .* reports none\. Re"):
-            kintrafo.compile(stephenson())
+    def test_too_few_coordinates_are_reported(self, refused):
+        refused(kintrafo.MechanismError, lambda: kintrafo.compile(stephenson()))
 
-    def test_nothing_moves(self):
+    def test_nothing_moves(self, refused):
         mechanism = stephenson("A")
         pin = mechanism.joint("F")
         stiff = g.Revolute("S", pin.first, mechanism.bodies[0], axis=pin.axis)
         mechanism = replace(mechanism, joints=(*mechanism.joints, stiff))
-        with pytest.raises(kintrafo.MechanismError, match="mobility -1: counting the degrees"):
-            kintrafo.compile(mechanism)
+        refused(kintrafo.MechanismError, lambda: kintrafo.compile(mechanism))
 
 
 # -- files ----------------------------------------------------------------------------------------
@@ -431,16 +401,13 @@ class TestFiles:
         assert [p.independent for p in kintrafo.proposals(path)] == [("A",), ("D",), ("B",)]
 
     @pytest.mark.parametrize("end", ["sys.exit()", "sys.exit('done')", "raise SystemExit(0)"])
-    def test_that_end_the_program(self, tmp_path, end):
+    def test_that_end_the_program(self, tmp_path, end, refused):
         path = tmp_path / "mine.py"
         path.write_text(f"import sys\n{end}\n")
-        with pytest.raises(kintrafo.InputError, match=r"Line 2: SystemExit.*__main__"):
-            kintrafo.compile(path)
+        refused(kintrafo.InputError, lambda: kintrafo.compile(path))
 
 
-def test_planar_helpers_name_what_is_of_no_plane():
-    with pytest.raises(g.DeclarationError, match="normal = 'x': 'y' or 'z' is needed"):
-        g.flat("p", (0.0, 0.0), normal="x")
+def test_planar_helpers_name_what_is_of_no_plane(refused):
+    refused(g.DeclarationError, lambda: g.flat("p", (0.0, 0.0), normal="x"))
     anywhere, body = g.Point("p", (0.0, 0.0, 0.0)), g.Body("b", 1.0, g.flat("c", (0.1, 0.0)), 1e-3)
-    with pytest.raises(g.DeclarationError, match="point 'p' is of no plane across y or z"):
-        hinge("A", g.Ground("g"), body, anywhere)
+    refused(g.DeclarationError, lambda: hinge("A", g.Ground("g"), body, anywhere))

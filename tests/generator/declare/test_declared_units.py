@@ -18,7 +18,7 @@ WRONG = ("deg", "furlong", "mm", "km/h", "N*m", "Nm", "kN", "g", "", "m/", "m^",
 
 
 @pytest.mark.parametrize("unit", WRONG)
-def test_what_is_no_unit_of_si_is_refused(unit):
+def test_what_is_no_unit_of_si_is_refused(unit, refused):
     for make in (
         lambda: g.Input("push", unit, "push"),
         lambda: Parameter("number", 1.0, unit, "number"),
@@ -28,8 +28,7 @@ def test_what_is_no_unit_of_si_is_refused(unit):
             make()
         assert repr(unit) in str(error.value)
     shows = Showing(lambda _: g.Action({"q_A": 1}), lambda *_: [Shown("s", 1, unit, "s")])
-    with pytest.raises(kintrafo.MechanismError, match="signal 's': unit"):
-        kintrafo.compile(model(shows), backend="numpy")
+    refused(kintrafo.MechanismError, lambda: kintrafo.compile(model(shows), backend="numpy"))
 
 
 @pytest.mark.parametrize("unit", ["N", "N m", "m/s^2", "N s/m", "1", "1/s", "V", "kg m^2", "N/m^3"])
@@ -53,37 +52,38 @@ def test_a_motion_is_in_the_unit_of_its_joint(joint, unit, right):
 
 @pytest.mark.parametrize(("joint", "right"), [(A, "N m"), (GUIDE, "N")], ids=["hinge", "guide"])
 @pytest.mark.parametrize("unit", ["N", "N m", "m", "1", "rad"])
-def test_a_force_along_a_joint_is_in_its_unit(joint, right, unit):
+def test_a_force_along_a_joint_is_in_its_unit(joint, right, unit, refused):
     given = g.Input("push", unit, "push")
     if unit == right:
         g.JointForce(joint, given)
         return
-    with pytest.raises(g.DeclarationError, match=f"is in {unit}; {right} is needed along"):
-        g.JointForce(joint, given)
+    refused(g.DeclarationError, lambda: g.JointForce(joint, given))
 
 
 @pytest.mark.parametrize(
     ("unit", "rate"), [("m", "m/s"), ("m/s", "m/s^2"), ("N m", "N m/s"), ("rad", "rad/s")]
 )
-def test_a_rate_is_in_the_unit_of_a_rate(unit, rate):
+def test_a_rate_is_in_the_unit_of_a_rate(unit, rate, refused):
     assert rate_of(unit) == rate
     source = g.Input("source", unit, "source")
     g.Input("rate", rate, "rate", source)
     for other in (unit, "1/s", f"kg {rate}"):
-        with pytest.raises(g.DeclarationError, match=r"and the rate of 'source' in"):
+        with refused(g.DeclarationError):
             g.Input("rate", other, "rate", source)
 
 
-def test_a_road_is_a_height():
+def test_a_road_is_a_height(refused):
     wheel = g.Wheel(g.Body("arm", 1.0, (0, 0, 0), (1, 1, 1)), g.Point("c", (0, 0, 0)), g.FORWARD)
-    with pytest.raises(g.DeclarationError, match="road 'road' is in rad; m is needed"):
-        g.LinearTyre(
+    refused(
+        g.DeclarationError,
+        lambda: g.LinearTyre(
             name="tyre",
             wheel=wheel,
             rate=g.SpringRate("rate", 1.0, "rate"),
             free_height=g.Displacement("free", 0.3, "free"),
             road=g.Input("road", "rad", "road"),
-        )
+        ),
+    )
 
 
 def test_all_units_that_ship_are_of_si():

@@ -25,18 +25,16 @@ def upward(*along):
     [("z", {}), ("z", upward(0, 0, -2)), ("y", upward(0, 1, 0))],
     ids=["up", "down", "left"],
 )
-def test_gravity_along_the_normal_is_refused(normal, weight):
-    with pytest.raises(g.DeclarationError, match=r"Weight acts against .* and has no effect"):
-        pendulum(normal, **weight)
+def test_gravity_along_the_normal_is_refused(normal, weight, refused):
+    refused(g.DeclarationError, lambda: pendulum(normal, **weight))
 
 
-def test_so_it_is_where_things_slide_in_the_plane():
+def test_so_it_is_where_things_slide_in_the_plane(refused):
     slider = g.Body("slider", 1.0, g.flat("com", (0.1, 0.0)), 0.01)
     rail = g.flat("rail_start", (0.0, 0.0)), g.flat("rail_end", (1.0, 0.5))
     guide = g.Prismatic("guide", GROUND, slider, g.Direction("rail", between=rail))
     named = (guide.slide("s", "slide"),)
-    with pytest.raises(g.DeclarationError, match="has no effect"):
-        g.Mechanism("rail", "t", (guide,), (g.Weight(),), named)
+    refused(g.DeclarationError, lambda: g.Mechanism("rail", "t", (guide,), (g.Weight(),), named))
     g.Mechanism("rail", "t", (guide,), (g.Weight(**upward(0, 1, 0)),), named)
 
 

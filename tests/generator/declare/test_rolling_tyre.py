@@ -253,10 +253,12 @@ def test_standstill_reversing_and_the_air(system_of, name):
 
 
 @pytest.mark.parametrize("name", ["vxlow", "vertical_stiffness", "effective_radius"])
-def test_what_no_tyre_has_is_refused(system_of, name):
+def test_what_no_tyre_has_is_refused(system_of, name, refused):
     """Without a lowest speed a slip at standstill would be no number."""
-    with pytest.raises(kintrafo.ParameterError, match=f"'tyre_{name}' = 0 .* give more than 0"):
-        kintrafo.System(system_of("linear").equations, {f"tyre_{name}": 0.0})
+    refused(
+        kintrafo.ParameterError,
+        lambda: kintrafo.System(system_of("linear").equations, {f"tyre_{name}": 0.0}),
+    )
 
 
 @pytest.fixture(scope="module")
@@ -350,13 +352,12 @@ def test_with_relaxation_no_speed_is_stiff(relaxing, system_of):
         assert slow < 1.6 * np.sqrt(0.29**2 * 9e4 / (1.1 * 0.3))
 
 
-def test_relaxation_lengths_that_a_file_does_not_say_are_asked_for(folder):
+def test_relaxation_lengths_that_a_file_does_not_say_are_asked_for(folder, refused):
     path = folder / "without.tir"
     path.write_text(without(NEWER, "LATERAL_STIFFNESS"), encoding="utf-8")
     tyre = kintrafo.tyres.load(path)
     assert tyre.parameters()["tyre_pcx1"] == 1.62
-    with pytest.raises(kintrafo.InputError, match="Add LONGITUDINAL_STIFFNESS and LATERAL"):
-        tyre.parameters(relaxing=True)
+    refused(kintrafo.InputError, lambda: tyre.parameters(relaxing=True))
 
 
 def test_a_tyre_has_all_parameters_of_its_law(system_of):
@@ -373,7 +374,7 @@ def test_a_tyre_has_all_parameters_of_its_law(system_of):
 WITHOUT = ("RHX1", "RHY1", "RHY2", *(f"QSX{i}" for i in range(4, 15)), "PKX3", "QSY7", "QSY8")
 
 
-def test_coefficients_that_do_nothing_cost_nothing(folder, system_of):
+def test_coefficients_that_do_nothing_cost_nothing(folder, system_of, refused):
     law = replace(LAWS["newer"], without=WITHOUT)
     model = rig(law, "rig_without")
     system = kintrafo.System(kintrafo.compile(model, folder=folder, backend="numpy"))
@@ -387,10 +388,8 @@ def test_coefficients_that_do_nothing_cost_nothing(folder, system_of):
         np.testing.assert_allclose(one, two, rtol=1e-9, atol=1e-9 * np.abs(two).max())
     arcs, every = (each.equations.rhs.operations["trigonometric"] for each in (lean, full))
     assert arcs <= every - 14
-    with pytest.raises(kintrafo.InputError, match=r"QSX4 = 0\.02: the equations leave it out"):
-        system_of.tyre("newer").parameters(without=WITHOUT)
-    with pytest.raises(g.DeclarationError, match="'LONGVL' is not a coefficient of these"):
-        replace(LAWS["newer"], without=("PTX1", "LONGVL"))
+    refused(kintrafo.InputError, lambda: system_of.tyre("newer").parameters(without=WITHOUT))
+    refused(g.DeclarationError, lambda: replace(LAWS["newer"], without=("PTX1", "LONGVL")))
 
 
 def test_a_mirrored_copy_has_the_mirror_image_of_the_tyre(folder, system_of):
@@ -416,22 +415,19 @@ def test_a_mirrored_copy_has_the_mirror_image_of_the_tyre(folder, system_of):
         assert left == pytest.approx(sign * right, rel=1e-10), what
 
 
-def test_it_is_refused_by_name():
+def test_it_is_refused_by_name(refused):
     law = LAWS["linear"]
     tyre = next(f for f in rig(law, "rig").mechanism.forces if isinstance(f, g.RollingTyre))
     parts = {k: v for k, v in vars(tyre).items() if not k.startswith("_")}
     height = g.Input("height", "N", "not a height")
     damper = g.DamperRate("rate", 1.0, "damping")
     lean = next(j for j in rig(law, "rig").mechanism.joints if j.name == "lean")
-    for changes, message in (
-        ({"road": height}, "'height' is in N; m is needed"),
-        ({"damper": damper}, "give damper and road_velocity, or neither"),
-        ({"bearing": lean}, "hinge 'lean' leads from 'fork'"),
-        (
-            {"deflections": (g.InternalState("u", "N", "no length"),) * 2},
-            "state 'u' is in N; m is needed",
-        ),
-        ({"bearing": lean}, "does not turn about the wheel's spin axis 'spin_axis'"),
+    for changes in (
+        {"road": height},
+        {"damper": damper},
+        {"bearing": lean},
+        {"deflections": (g.InternalState("u", "N", "no length"),) * 2},
+        {"bearing": lean},
     ):
-        with pytest.raises(g.DeclarationError, match=message):
+        with refused(g.DeclarationError):
             g.RollingTyre(**(parts | changes))

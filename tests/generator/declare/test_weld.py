@@ -51,20 +51,20 @@ def test_both_swing_as_one_body():
     np.testing.assert_allclose([signals[f"tip_{axis}"] for axis in "xyz"], tip, rtol=1e-15)
 
 
-def test_what_is_joined_to_a_welded_body_belongs_to_the_other():
+def test_what_is_joined_to_a_welded_body_belongs_to_the_other(refused):
     hand = g.Body("hand", 1.0, (0.6, 0.3, 0.2), (0.01, 0.01, 0.01))
     wrist = g.Revolute("wrist", BURDEN, hand, g.Line(TIP, ACROSS))
-    with pytest.raises(g.DeclarationError, match=r"'wrist' joins 'burden', which .* at 'arm'"):
-        g.Mechanism("hand", "Hand", (SWING, WELD, wrist))
+    refused(g.DeclarationError, lambda: g.Mechanism("hand", "Hand", (SWING, WELD, wrist)))
 
 
-def test_a_weld_to_the_ground_is_refused():
+def test_a_weld_to_the_ground_is_refused(refused):
     post = g.Body("post", 1.0, (0.6, 0.3, 0.2), (0.01, 0.01, 0.01))
-    with pytest.raises(g.DeclarationError, match="'rivet' welds 'post' to the ground"):
-        g.Mechanism("post", "Post", (SWING, g.Weld("rivet", FRAME, post)))
+    refused(
+        g.DeclarationError,
+        lambda: g.Mechanism("post", "Post", (SWING, g.Weld("rivet", FRAME, post))),
+    )
 
 
-def test_a_weld_is_not_driven():
+def test_a_weld_is_not_driven(refused):
     system = g.Mechanism("p", "P", (SWING, WELD), (), (SWING.angle("a", "arm"),))
-    with pytest.raises(g.DeclarationError, match="'weld' is weld, with 0 coordinates"):
-        g.Formulation("p", "P", system, (WELD,))
+    refused(g.DeclarationError, lambda: g.Formulation("p", "P", system, (WELD,)))

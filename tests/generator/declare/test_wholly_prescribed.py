@@ -106,7 +106,7 @@ def test_a_motion_ends_at_a_dead_point(driven, method, turns):
     # the coupler folded back over the crank: ground and rocker make a triangle with both
     folded = np.arccos((0.3**2 + rocker**2 - (coupler - crank) ** 2) / (2.0 * 0.3 * rocker))
     dead = np.arctan2(0.26, 0.06) - folded  # from design on
-    with pytest.raises(kintrafo.SimulationError, match="beyond its dead point") as caught:
+    with pytest.raises(kintrafo.SimulationError, match="dead point") as caught:
         kintrafo.simulate(
             driven,
             (0.0, 1.0),
@@ -123,7 +123,7 @@ def test_a_motion_ends_at_a_dead_point(driven, method, turns):
 @pytest.mark.parametrize("method", METHODS)
 def test_a_motion_that_begins_beyond_a_dead_point_ends_there(driven, method, rate):
     """Whether it moves on, or back to where the loop closes."""
-    with pytest.raises(kintrafo.SimulationError, match="beyond its dead point") as caught:
+    with pytest.raises(kintrafo.SimulationError, match="dead point") as caught:
         kintrafo.simulate(
             driven,
             (2.0, 4.0),
@@ -135,9 +135,9 @@ def test_a_motion_that_begins_beyond_a_dead_point_ends_there(driven, method, rat
     assert caught.value.partial.t.tolist() == [2.0]
 
 
-def test_methods_that_need_a_state_say_so(lift):
+def test_methods_that_need_a_state_say_so(lift, refused):
     for method in ("Adams", "Verner"):
-        with pytest.raises(kintrafo.InputError, match="all that moves here is prescribed"):
+        with refused(kintrafo.InputError):
             kintrafo.simulate(lift, (0.0, 1.0), [], method=method)
 
 

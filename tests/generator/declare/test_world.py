@@ -119,14 +119,14 @@ def test_its_motion_adds_nothing_to_how_loops_are_solved():
     assert operations_of(free).total() < 1.3 * operations_of(fixed).total()
 
 
-def test_a_free_body_that_nobody_drives_has_no_pose():
-    with pytest.raises(DeclarationError, match="nothing else places 'chassis'; make it"):
-        free_model(independent=on_it(FIXED.independent))
-
-
-def test_a_free_body_cannot_be_prescribed():
-    with pytest.raises(DeclarationError, match="prescribed joint 'body' is free, with 6 coord"):
-        free_model(independent=on_it(FIXED.independent), prescribed={BODY: RACK_MOTION}, held={})
+def test_a_free_body_is_independent(refused):
+    """Driven by nothing it has no pose, and it cannot be prescribed."""
+    rest = on_it(FIXED.independent)
+    refused(
+        DeclarationError,
+        lambda: free_model(independent=rest),
+        lambda: free_model(independent=rest, prescribed={BODY: RACK_MOTION}, held={}),
+    )
 
 
 def test_a_pair_of_copies_shares_the_free_body():

@@ -233,11 +233,10 @@ def test_pins_of_a_cylinder_at_different_places_along_their_hinges_are_refused()
 
 
 @pytest.mark.parametrize("reverse", [False, True])
-def test_defaults_that_leave_the_plane_are_refused_before_anything_is_compiled(*, reverse):
+def test_defaults_that_leave_the_plane_are_refused_before_anything_is_compiled(refused, *, reverse):
     model = crane(reverse=reverse)
     beside = moved(numbers(model), "barrel_pin", 0.05 * unit(NORMAL))
-    with pytest.raises(g.DeclarationError, match="guide bore is not across the hinge"):
-        generate(with_default(model, **beside))
+    refused(g.DeclarationError, lambda: generate(with_default(model, **beside)))
 
 
 # -- shafts of crosses ----------------------------------------------------------------------------
@@ -374,14 +373,16 @@ def test_a_hinge_along_a_chassis_axis_needs_no_other_direction(axis):
         by_the_oracle(models[0], module, numbers(models[0]))
 
 
-def test_an_angle_that_counts_from_along_its_hinge_is_refused_by_name():
-    with pytest.raises(g.DeclarationError, match="'edge': angle_from, which is up, lies along"):
-        gate(
+def test_an_angle_that_counts_from_along_its_hinge_is_refused_by_name(refused):
+    refused(
+        g.DeclarationError,
+        lambda: gate(
             (0.0, 0.0, 1.0),
             axis=g.Line(EDGE_AT, g.UP),
             angle_from=g.UP,
             angle_to=g.Point("flap_tip", (1.2, 0.3, 0.5)),
-        )
+        ),
+    )
 
 
 # -- hinges that are parallel by their numbers ----------------------------------------------------

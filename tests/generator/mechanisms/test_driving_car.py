@@ -148,7 +148,7 @@ def test_normal_forces_and_torques_at_rest_conserve_energy():
     assert abs(body + tyres) < 1e-3
 
 
-def test_units_and_bearings_are_checked():
+def test_units_and_bearings_are_checked(refused):
     arms = model_named("trailing_arm")
     (tyre,) = (f for f in arms.mechanism.forces if isinstance(f, g.LinearTyre))
     other = next(j for j in arms.driven if not isinstance(j.second, g.Rotor))
@@ -162,12 +162,11 @@ def test_units_and_bearings_are_checked():
         )
     assert len(caught.value.problems) == 3
     air = next(f for f in on_arms().mechanism.forces if isinstance(f, g.AirForces))
-    with pytest.raises(g.DeclarationError, match="drag 'air_density' is in kg/m"):
-        replace(air, drag=air.density)
+    refused(g.DeclarationError, lambda: replace(air, drag=air.density))
 
 
 @pytest.mark.parametrize("on", ["chassis", "trailing_arm", "wheel"])
-def test_a_reaction_is_on_the_carrier_or_on_what_all_hangs_on(on):
+def test_a_reaction_is_on_the_carrier_or_on_what_all_hangs_on(on, refused):
     arms = model_named("trailing_arm")
     (tyre,) = (f for f in arms.mechanism.forces if isinstance(f, g.LinearTyre))
     bearing = next(j for j in arms.driven if isinstance(j.second, g.Rotor))
@@ -181,5 +180,4 @@ def test_a_reaction_is_on_the_carrier_or_on_what_all_hangs_on(on):
     if on != "wheel":
         generate(model, derivatives=False)
         return
-    with pytest.raises(g.DeclarationError, match="give the carrier, or the body that"):
-        generate(model, derivatives=False)
+    refused(g.DeclarationError, lambda: generate(model, derivatives=False))

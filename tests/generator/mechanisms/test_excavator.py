@@ -49,7 +49,7 @@ def test_signs_are_those_of_the_table():
 def test_a_stroke_out_of_reach_names_its_loop(cylinder, beyond, loop):
     strokes = np.zeros(3)
     strokes[CYLINDERS.index(cylinder)] = beyond
-    with pytest.raises(excavator.ClosureError, match="cannot close") as error:
+    with pytest.raises(excavator.ClosureError) as error:
         excavator.rhs(state_at(strokes))
     assert set(loop.split(" - ")) <= set(error.value.reasons[0].replace(" cannot", "").split())
 

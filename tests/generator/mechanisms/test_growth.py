@@ -39,10 +39,10 @@ def test_chain_is_a_pendulum(chain, angle):
 
 @needs_gcc
 @pytest.mark.parametrize("loop", [1, LONG - 1, LONG])
-def test_the_loop_that_cannot_close_is_named(chain, loop):
+def test_the_loop_that_cannot_close_is_named(chain, loop, refused):
     """Also where guards share a bit of the status word."""
     built = Built.of(chain.model, chain.module, {f"top_{loop}_z": 2.0})  # a rocker too long
-    with pytest.raises(built.module.ClosureError, match=f"coupler_{loop} cannot reach") as error:
+    with refused(built.module.ClosureError) as error:
         built("rhs", np.array([1.4, 0.0]), np.zeros(1))
     first = next(iter(error.value.margins))
     assert first == f"rocker_{loop}_closure"

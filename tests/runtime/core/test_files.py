@@ -49,7 +49,7 @@ def test_what_was_written_is_written_again(tmp_path):
 
 
 @pytest.mark.parametrize("how", ["another's", "changed", "moved", "forgotten"])
-def test_what_is_somebody_elses_is_kept(tmp_path, cache, how):
+def test_what_is_somebody_elses_is_kept(tmp_path, cache, how, refused):
     path = tmp_path / "a.csv"
     put(path, "results")
     if how == "another's":
@@ -62,8 +62,7 @@ def test_what_is_somebody_elses_is_kept(tmp_path, cache, how):
     else:
         (cache / "written").unlink()
     before = path.read_bytes()
-    with pytest.raises(InputError, match=r"exists already.*--force.*force=True"):
-        put(path, "new")
+    refused(InputError, lambda: put(path, "new"))
     assert path.read_bytes() == before
     put(path, "new", force=True)
     assert path.read_text() == "new"
@@ -77,18 +76,18 @@ def test_an_empty_file_holds_nothing_to_lose(tmp_path):
 
 
 @pytest.mark.parametrize("link", [False, True])
-def test_what_is_read_is_never_written(tmp_path, link):
+def test_what_is_read_is_never_written(tmp_path, link, refused):
     source = tmp_path / "source.py"
     source.write_text("mine")
     path = tmp_path / "link.py"
     path.symlink_to(source) if link else path.hardlink_to(source)
     for given in (source, path):
-        with pytest.raises(InputError, match="read here"):
+        with refused(InputError):
             put(given, "new", force=True, inputs=[source])
     assert source.read_text() == "mine"
 
 
-def test_a_file_that_appears_meanwhile_is_kept(tmp_path):
+def test_a_file_that_appears_meanwhile_is_kept(tmp_path, refused):
     path = tmp_path / "a.csv"
 
     def slowly():
@@ -96,8 +95,7 @@ def test_a_file_that_appears_meanwhile_is_kept(tmp_path):
             temporary.write_text("new")
             path.write_text("from another window")
 
-    with pytest.raises(InputError, match="exists already"):
-        slowly()
+    refused(InputError, slowly)
     assert path.read_text() == "from another window"
 
 
@@ -110,31 +108,28 @@ def test_several_are_refused_together(tmp_path):
 
 
 @pytest.mark.parametrize("name", ["a.csv", "a.nc", "a.parquet", "a.xlsx"])
-def test_data_files(tmp_path, name):
+def test_data_files(tmp_path, name, refused):
     path = tmp_path / name
     path.write_text("mine")
-    with pytest.raises(InputError, match="exists already"):
-        export.write(LINE, path)
+    refused(InputError, lambda: export.write(LINE, path))
     export.write(LINE, path, force=True)
     export.write(LINE, path)
 
 
-def test_input_files_of_a_person(tmp_path):
+def test_input_files_of_a_person(tmp_path, refused):
     chrono = DATA / "chrono/MacPhersonStrut.json"
     path = write_starter(tmp_path / "car.toml")
     write_starter(path)  # as it was written: nothing is lost
     path.write_text(path.read_text() + "# mine\n")
     for write in (write_starter, lambda p: write_toml(read(chrono).suspension, p)):
-        with pytest.raises(InputError, match="exists already"):
+        with refused(InputError):
             write(path)
-    with pytest.raises(InputError, match=r"ends in|end in \.toml"):
-        write_starter(tmp_path / "car.py", force=True)
+    refused(InputError, lambda: write_starter(tmp_path / "car.py", force=True))
 
 
-def test_figures_are_refused_before_one_is_drawn(tmp_path):
+def test_figures_are_refused_before_one_is_drawn(tmp_path, refused):
     (tmp_path / "camber.png").write_text("mine")
-    with pytest.raises(InputError, match=r"camber\.png.*\n.*exists already"):
-        plots.write(LINE, tmp_path)
+    refused(InputError, lambda: plots.write(LINE, tmp_path))
     assert [path.name for path in tmp_path.iterdir()] == ["camber.png"]
 
 
@@ -159,11 +154,10 @@ def test_every_writer_refuses_what_is_no_path(tmp_path, rule):
     assert not list(tmp_path.iterdir())
 
 
-def test_reports_have_a_name_of_their_own(tmp_path):
+def test_reports_have_a_name_of_their_own(tmp_path, refused):
     path = tmp_path / "other_car.toml"
     path.write_text("mine")
-    with pytest.raises(InputError, match=r"must end in \.html"):
-        report.write(Model("reference_car"), path, force=True)
+    refused(InputError, lambda: report.write(Model("reference_car"), path, force=True))
     assert path.read_text() == "mine"
 
 
@@ -175,11 +169,10 @@ def test_the_register_does_not_grow_without_end(tmp_path, cache, monkeypatch):
     put(tmp_path / "99.csv", "y")
 
 
-def test_without_a_register_nothing_is_lost(tmp_path, cache):
+def test_without_a_register_nothing_is_lost(tmp_path, cache, refused):
     (cache / "written").mkdir()
     put(tmp_path / "a.csv", "x")
-    with pytest.raises(InputError, match="exists already"):
-        put(tmp_path / "a.csv", "y")
+    refused(InputError, lambda: put(tmp_path / "a.csv", "y"))
 
 
 # -- complete files, and links --------------------------------------------------------------------
@@ -366,22 +359,20 @@ def test_a_formula_of_a_declaration_in_the_heading(tmp_path):
 
 
 @pytest.mark.parametrize("strange", [3, None, "read.csv", b"x", [3], [None]])
-def test_what_is_no_list_of_files_that_are_read_is_refused(tmp_path, strange):
+def test_what_is_no_list_of_files_that_are_read_is_refused(tmp_path, strange, refused):
     """The letters of a name would be files that nobody reads, and the file would be written."""
     path = tmp_path / "read.csv"
-    with pytest.raises(InputError, match=r"inputs: (?!NoneType).*\bpaths?\b"):
-        refuse([path], inputs=strange)
+    refused(InputError, lambda: refuse([path], inputs=strange))
     with (
-        pytest.raises(InputError, match=r"inputs: .*\bpaths?\b"),
+        refused(InputError),
         replacing(path, inputs=strange) as temporary,
     ):
         temporary.write_text("")
     assert not list(tmp_path.iterdir())
 
 
-def test_a_text_is_no_list_of_files_to_be_written():
-    with pytest.raises(InputError, match="path: a list of paths is needed, not a text"):
-        refuse("curves.csv")
+def test_a_text_is_no_list_of_files_to_be_written(refused):
+    refused(InputError, lambda: refuse("curves.csv"))
 
 
 def test_files_that_are_read_may_come_one_by_one(tmp_path):

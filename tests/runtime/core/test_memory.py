@@ -130,16 +130,15 @@ CURVES = {
 @pytest.mark.parametrize("what", CURVES)
 def test_curves_of_too_many_positions_are_refused_at_once(what):
     """By every function that takes positions; 10 thousand millions need 41 TB."""
-    with pytest.raises(InputError, match=r"curves of 10,000,000,000 positions need 41 TB, and "):
+    with pytest.raises(InputError, match=r"10,000,000,000 .* 41 TB"):
         CURVES[what]()
 
 
-def test_loads_along_a_long_motion_are_refused(monkeypatch):
+def test_loads_along_a_long_motion_are_refused(monkeypatch, refused):
     motion = simulate(CAR, (0.0, 0.1), START, t_eval=np.linspace(0.0, 0.1, 11))
     monkeypatch.setattr(memory, "free", lambda: 1e3)
     monkeypatch.setattr(memory, "_LITTLE", 1e3)
-    with pytest.raises(InputError, match=r"loads of 11 outputs need .* fewer outputs, by t_eval"):
-        loads.along(CAR, motion)
+    refused(InputError, lambda: loads.along(CAR, motion))
 
 
 @needs_lanes

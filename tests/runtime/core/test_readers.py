@@ -49,9 +49,8 @@ def test_a_file_that_is_too_large(reader, tmp_path):
 
 
 @pytest.mark.skipif(not Path("/dev/zero").exists(), reason="is of Unix")
-def test_a_file_without_end():
-    with pytest.raises(InputError, match="more than 4 MiB"):
-        bytes_of("/dev/zero")
+def test_a_file_without_end(refused):
+    refused(InputError, lambda: bytes_of("/dev/zero"))
 
 
 @pytest.mark.parametrize("reader", READERS)
@@ -78,14 +77,14 @@ def test_characters_of_json(text, tmp_path):
 
 
 @pytest.mark.parametrize("text", ["a\0b", "\ud800", "\x1b[2J"])
-def test_texts_of_declarations(text):
+def test_texts_of_declarations(text, refused):
     body = Ground("ground")
     for make in (
         lambda: Point("p", (0.0, 0.0, 0.0), text),
         lambda: Angle("a", 1.0, text),
         lambda: PositionOf("p", body, Point("p", (0.0, 0.0, 0.0)), text),
     ):
-        with pytest.raises(DeclarationError, match="cannot be shown"):
+        with refused(DeclarationError):
             make()
 
 

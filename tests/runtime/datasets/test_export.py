@@ -57,10 +57,9 @@ def heights(dataset):
     return height.values
 
 
-def test_sweeps_stop_where_the_suspension_does():
+def test_sweeps_stop_where_the_suspension_does(refused):
     assert sweep.usual_travel(MODEL)[[0, -1]].tolist() == [-0.08, 0.08]
-    with pytest.raises(PositionError, match="out of reach"):
-        sweep.positions(MODEL, [0.0, 0.4])
+    refused(PositionError, lambda: sweep.positions(MODEL, [0.0, 0.4]))
     with pytest.raises(InputError, match="finite"):
         sweep.positions(MODEL, [0.0, np.nan])
 
@@ -157,11 +156,12 @@ def test_a_file_that_fails_leaves_the_old_one(tmp_path):
     assert list(tmp_path.iterdir()) == [path]
 
 
-def test_unknown_endings_are_refused(tmp_path):
-    with pytest.raises(InputError, match=r"Use \.csv"):
-        export.write(LINE, tmp_path / "a.ods")
-    with pytest.raises(InputError, match="no ending"):
-        export.write(LINE, tmp_path / "a")
+def test_unknown_endings_are_refused(tmp_path, refused):
+    refused(
+        InputError,
+        lambda: export.write(LINE, tmp_path / "a.ods"),
+        lambda: export.write(LINE, tmp_path / "a"),
+    )
 
 
 # -- figures ------------------------------------------------------------------------------------

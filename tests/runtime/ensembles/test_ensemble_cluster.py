@@ -161,19 +161,15 @@ def test_what_a_lost_worker_did_is_done_again(client, car, start, tmp_path, monk
     same(found, ensemble(car, some_cars(40), SPAN, start, **KEPT))
 
 
-def test_what_loses_one_worker_after_another():
+def test_what_loses_one_worker_after_another(refused):
     """Messages of the scheduler about lost workers, and of a lost scheduler."""
-    shown = {
-        distributed.scheduler.KilledWorker("chunk", None, 3): "systems 7 to 14: several workers",
-        CancelledError(): "the scheduler was lost, or",
-        OSError("nobody there"): "the scheduler was lost: nobody there",
-    }
-    for error, words in shown.items():
+    killed = distributed.scheduler.KilledWorker("chunk", None, 3)
+    for error in (killed, CancelledError(), OSError("nobody there")):
 
         def result(error=error):
             raise error
 
-        with pytest.raises(queue.ClusterError, match=words):
+        with refused(queue.ClusterError):
             queue._result(SimpleNamespace(result=result), (7, 14))
 
 
@@ -280,52 +276,51 @@ def test_what_is_left_between_what_overlaps():
 
 
 OTHERS = [
-    ({"variants": {"damper_rate": [1e3, 3e3]}}, "variants"),
-    ({"variants": {"spring_rate": [1e3, 2e3]}}, "variants"),
-    ({"t_span": (0.0, 0.6)}, "t_span and inputs"),
-    ({"inputs": {"road_height": 0.01}}, "t_span and inputs"),
-    ({"t_eval": [0.0, 0.5]}, "t_eval"),
-    ({"reductions": {"camber": "min"}}, "signals and reductions"),
-    ({"signals": ["camber"]}, "signals and reductions"),
-    ({"rtol": 1e-5}, "tolerances and steps"),
-    ({"max_steps": 99}, "tolerances and steps"),
-    ({"stiff": None}, "stiff"),
-    ({"y0": [0.1, 0.0, 0.0, 0.0]}, "y0"),
-    ({"model": Model("offset_strut_car"), "y0": [1.6, 0.0, 0.0, 93.0]}, "equations"),
+    {"variants": {"damper_rate": [1e3, 3e3]}},
+    {"variants": {"spring_rate": [1e3, 2e3]}},
+    {"t_span": (0.0, 0.6)},
+    {"inputs": {"road_height": 0.01}},
+    {"t_eval": [0.0, 0.5]},
+    {"reductions": {"camber": "min"}},
+    {"signals": ["camber"]},
+    {"rtol": 1e-5},
+    {"max_steps": 99},
+    {"stiff": None},
+    {"y0": [0.1, 0.0, 0.0, 0.0]},
+    {"model": Model("offset_strut_car"), "y0": [1.6, 0.0, 0.0, 93.0]},
 ]
 
 
-def test_a_folder_of_another_ensemble_is_refused(car, tmp_path, start):
+def test_a_folder_of_another_ensemble_is_refused(car, tmp_path, start, refused):
     given = {
         "model": car, "variants": {"damper_rate": [1e3, 2e3]}, "t_span": SPAN, "y0": start,
         "kept": tmp_path,
     }  # fmt: skip
     ensemble(**given)
     ensemble(**given, threads=1, lanes=2)  # how it is done does not matter
-    for other, word in OTHERS:
-        with pytest.raises(InputError, match=f"of another ensemble, with other .*{word}") as caught:
+    for other in OTHERS:
+        with refused(InputError):
             ensemble(**given | other)
-        assert str(tmp_path) in str(caught.value)
 
 
-def test_versions_are_part_of_what_is_kept(car, tmp_path, monkeypatch):
+def test_versions_are_part_of_what_is_kept(car, tmp_path, monkeypatch, refused):
     ensemble(car, None, SPAN, kept=tmp_path)
     identity = import_module("kintrafo.ensembles.chunks.identity")
     monkeypatch.setattr(identity, "versions", lambda: {"NumPy": "0.1"})
-    with pytest.raises(InputError, match="other the version of kintrafo or its packages"):
-        ensemble(car, None, SPAN, kept=tmp_path)
+    refused(InputError, lambda: ensemble(car, None, SPAN, kept=tmp_path))
 
 
-def test_a_folder_of_something_else_is_refused(car, tmp_path):
+def test_a_folder_of_something_else_is_refused(car, tmp_path, refused):
     (tmp_path / "mine").write_text("x", encoding="utf-8")
-    with pytest.raises(InputError, match="other things are in this folder"):
-        ensemble(car, None, SPAN, kept=tmp_path)
-    with pytest.raises(InputError, match="not a folder"):
-        ensemble(car, None, SPAN, kept=tmp_path / "mine")
+    refused(
+        InputError,
+        lambda: ensemble(car, None, SPAN, kept=tmp_path),
+        lambda: ensemble(car, None, SPAN, kept=tmp_path / "mine"),
+    )
     assert [entry.name for entry in tmp_path.iterdir()] == ["mine"]
     for text in ("", "[]", "{}"[:1]):
         (tmp_path / "ensemble.json").write_text(text, encoding="utf-8")
-        with pytest.raises(InputError, match="damaged"):
+        with refused(InputError):
             ensemble(car, None, SPAN, kept=tmp_path)
 
 
@@ -389,7 +384,7 @@ def test_clients_that_cannot_be_used(client, car):
     closed = distributed.Client(client.scheduler.address, set_as_default=False)
     closed.close()
     for cluster in (closed, distributed.Client, client.cluster):
-        with pytest.raises(InputError, match=r"a running dask\.distributed\.Client"):
+        with pytest.raises(InputError, match=r"dask\.distributed\.Client"):
             ensemble(car, None, SPAN, cluster=cluster)
 
 
@@ -399,14 +394,14 @@ def test_a_scheduler_without_workers(car, monkeypatch):
     with (
         distributed.LocalCluster(**there) as cluster,
         distributed.Client(cluster, set_as_default=False) as client,
-        pytest.raises(InputError, match=r"no worker for 0\.3 s. Start some: dask worker"),
+        pytest.raises(InputError, match=r" 0\.3 s.*: dask worker"),
     ):
         ensemble(car, None, SPAN, cluster=client)
 
 
 def test_a_dead_address_is_reported_at_once(car):
     begun = time.monotonic()
-    with pytest.raises(InputError, match="start a scheduler there: dask scheduler"):
+    with pytest.raises(InputError, match=": dask scheduler"):
         ensemble(car, None, SPAN, cluster="tcp://127.0.0.1:1")
     assert time.monotonic() - begun < workers._PATIENCE / 2.0
 
@@ -415,19 +410,12 @@ def test_what_listens_and_is_no_scheduler(car, monkeypatch):
     monkeypatch.setattr(workers, "_PATIENCE", 0.3)
     with socket.create_server(("127.0.0.1", 0)) as server:
         port = server.getsockname()[1]
-        with pytest.raises(InputError, match=r"there is no reply \(timed out"):
+        with pytest.raises(InputError, match=r"127\.0\.0\.1"):
             ensemble(car, None, SPAN, cluster=f"127.0.0.1:{port}")
 
 
-SCRIPTS = {
-    "x": "They read the script that starts them",
-    "if __name__ == '__main__': x": "They ended at their start (ImportError: no such module)",
-    None: "They ended at their start (ImportError: no such module)",
-}
-
-
-@pytest.mark.parametrize("script", SCRIPTS)
-def test_local_workers_that_cannot_begin(car, monkeypatch, tmp_path, script):
+@pytest.mark.parametrize("script", ["x", "if __name__ == '__main__': x", None])
+def test_local_workers_that_cannot_begin(car, monkeypatch, tmp_path, script, refused):
     """The error follows from whether workers could read the script, and from Dask's error."""
     main = SimpleNamespace()
     if script:
@@ -435,14 +423,11 @@ def test_local_workers_that_cannot_begin(car, monkeypatch, tmp_path, script):
         Path(main.__file__).write_text(script)
     monkeypatch.setitem(sys.modules, "__main__", main)
 
-    def refused(**_):
+    def begin(**_):
         raise RuntimeError from ImportError("no such module")
 
-    monkeypatch.setattr(distributed, "LocalCluster", refused)
-    with pytest.raises(InputError) as shown:
-        ensemble(car, None, SPAN, cluster=1)
-    assert SCRIPTS[script] in str(shown.value)
-    assert ("if __name__" in str(shown.value)) == (script == "x")
+    monkeypatch.setattr(distributed, "LocalCluster", begin)
+    refused(InputError, lambda: ensemble(car, None, SPAN, cluster=1))
 
 
 def test_a_worker_that_reads_the_script(monkeypatch):
@@ -453,7 +438,7 @@ def test_a_worker_that_reads_the_script(monkeypatch):
 def test_a_missing_package(car, monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     for cluster in (1, "127.0.0.1:8786"):
-        with pytest.raises(MissingPackageError, match=r'pip install "kintrafo\[cluster\]"'):
+        with pytest.raises(MissingPackageError, match=r"kintrafo\[cluster\]"):
             ensemble(car, None, SPAN, cluster=cluster)
 
 
@@ -462,7 +447,7 @@ def test_workers_with_other_versions(client, car, monkeypatch):
     monkeypatch.setattr(versions, "version", lambda _: "9.9")
     monkeypatch.setattr(versions, "_digest", lambda: "")
     versions.versions.cache_clear()
-    words = f"tcp://.* has kintrafo {real['kintrafo']} instead of 9.9, other files of kintrafo"
+    words = f"tcp://.* {real['kintrafo']} .* 9.9, "
     try:
         with pytest.raises(InputError, match=words):
             ensemble(car, None, SPAN, cluster=client)
@@ -478,7 +463,7 @@ def test_a_worker_that_came_later_with_other_versions(car, monkeypatch):
     monkeypatch.setattr(
         ensembles, "checkpoint_in", lambda *_: SimpleNamespace(found=list, keep=None)
     )
-    with pytest.raises(InputError, match=r"asked by a process that has kintrafo 9\.9"):
+    with pytest.raises(InputError, match=r"kintrafo 9\.9"):
         ensemble(car, None, SPAN, kept="here")
 
 
@@ -488,12 +473,11 @@ def test_a_worker_that_cannot_load_it():
     assert not workers._other(ConnectionResetError("it was lost"))  # what it did is done again
 
 
-def test_a_folder_where_a_file_should_be(car, tmp_path):
+def test_a_folder_where_a_file_should_be(car, tmp_path, refused):
     ensemble(car, None, SPAN, kept=tmp_path)
     (tmp_path / "systems-000000000-000000001.npz").unlink()
     (tmp_path / "systems-000000000-000000001.npz").mkdir()
-    with pytest.raises(InputError, match="not a file, but named as a saved chunk"):
-        ensemble(car, None, SPAN, kept=tmp_path)
+    refused(InputError, lambda: ensemble(car, None, SPAN, kept=tmp_path))
 
 
 def test_what_is_kept_can_be_read(car, tmp_path):

@@ -123,20 +123,19 @@ def test_what_cannot_be_shown_is_refused_by_name(spun, tmp_path, options, refuse
     assert not path.exists()
 
 
-def test_other_things_than_motions_and_systems_are_refused(tmp_path):
+def test_other_things_than_motions_and_systems_are_refused(tmp_path, refused):
     """With what is needed."""
-    with pytest.raises(kintrafo.InputError, match=r"result of kintrafo\.simulate"):
-        kintrafo.animate("reference_car", tmp_path / "a.gif")
+    refused(kintrafo.InputError, lambda: kintrafo.animate("reference_car", tmp_path / "a.gif"))
     with pytest.raises(kintrafo.InputError, match=r"kintrafo\.System"):
         kintrafo.report.write("reference_car", tmp_path / "a.html")
 
 
 @pytest.mark.parametrize("command", ["characteristics", "simulate", "loads"])
-def test_commands_for_suspensions_say_what_a_mechanism_has(command):
+def test_commands_for_suspensions_say_what_a_mechanism_has(command, as_stored):
     """Not that a Python file is no valid TOML."""
     result = CliRunner().invoke(app, [command, str(EXAMPLE)])
     assert isinstance(result.exception, kintrafo.InputError)
-    assert "kintrafo mechanism, report and export" in str(result.exception)
+    as_stored(str(result.exception))
 
 
 def test_commands_show_a_mechanism_and_a_suspension(tmp_path):
@@ -193,9 +192,11 @@ def test_where_it_does_not_stay_is_reported(tmp_path):
         assert (grows in page.read_text(encoding="utf-8")) == grown
 
 
-def test_a_motion_of_another_mechanism_is_refused(spun, tmp_path):
-    with pytest.raises(kintrafo.InputError, match="not one of this mechanism"):
-        kintrafo.report.write(kintrafo.System(excavator), tmp_path / "a.html", motion=spun)
+def test_a_motion_of_another_mechanism_is_refused(spun, tmp_path, refused):
+    refused(
+        kintrafo.InputError,
+        lambda: kintrafo.report.write(kintrafo.System(excavator), tmp_path / "a.html", motion=spun),
+    )
     assert not [*tmp_path.iterdir()]
 
 

@@ -156,13 +156,12 @@ def test_a_crank_that_goes_round_is_not_ended():
         assert simulate(system, (0.0, 1.0), start, method=method).success
 
 
-def test_the_error_is_that_of_the_loop():
+def test_the_error_is_that_of_the_loop(refused):
     system, start = crank(20.0)
     error = ended(system, start, 1.0)
     message = "the rod coupler cannot reach rocker, beyond its dead point (rocker_closure = "
     assert message in error.reason
-    with pytest.raises(ClosureError, match="cannot reach rocker"):
-        system.evaluate("rhs", [error.state[0] + 1e-3, 0.0])
+    refused(ClosureError, lambda: system.evaluate("rhs", [error.state[0] + 1e-3, 0.0]))
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -194,7 +193,7 @@ def test_what_scipy_found_until_then_stays(method):
         return state[0] + 0.05
 
     options = {"t_eval": times, "events": watched, "dense_output": True, "backend": "scipy"}
-    with pytest.raises(SimulationError, match="dead point") as caught:
+    with pytest.raises(SimulationError, match="rocker") as caught:
         simulate(system, span, start, method=method, **options)
     partial, reached = caught.value.partial, caught.value.time
     assert partial.t.size == np.searchsorted(times, reached) > 20

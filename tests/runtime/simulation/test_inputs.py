@@ -125,11 +125,10 @@ class TestBetweenSamples:
             PPoly([[1.0, 2.0], [0.0, 0.5]], [0.0, 0.5, 1.0]),
         ],
     )
-    def test_a_kink_of_the_rack_is_refused(self, rack):
-        with pytest.raises(InputError, match="infinite acceleration"):
-            time_inputs(MODEL, {"rack_position": rack}, (0.0, 1.0))
+    def test_a_kink_of_the_rack_is_refused(self, rack, refused):
+        refused(InputError, lambda: time_inputs(MODEL, {"rack_position": rack}, (0.0, 1.0)))
 
-    def test_curves_of_scipy_are_taken_as_they_are(self):
+    def test_curves_of_scipy_are_taken_as_they_are(self, refused):
         times = np.linspace(0.0, 1.0, 9)
         heights = 0.01 * np.sin(times)
         for curve in (PchipInterpolator(times, heights), CubicSpline(times, heights)):
@@ -139,8 +138,7 @@ class TestBetweenSamples:
             rack = time_inputs(MODEL, {"rack_position": curve}, (0.0, 1.0))
             assert (len(rack.segments) > 1) == isinstance(curve, PchipInterpolator)
         quartic = PPoly(np.ones((5, 1)), [0.0, 1.0])
-        with pytest.raises(InputError, match="degree 3 or less"):
-            time_inputs(MODEL, {"road_height": quartic}, (0.0, 1.0))
+        refused(InputError, lambda: time_inputs(MODEL, {"road_height": quartic}, (0.0, 1.0)))
 
     def test_a_measured_road_turns_at_its_samples_only(self):
         random = np.random.default_rng(1)
@@ -216,7 +214,7 @@ class TestFunctions:
         """Calls come at irregular times: nothing that repeats itself hides between them."""
         monkeypatch.setattr("kintrafo.simulation.fitting._MOST_KNOTS", 10_000)
         for frequency in (1e3, 2e3, 1e4):
-            with pytest.raises(InputError, match="does not follow"):
+            with pytest.raises(InputError, match="road_height"):
                 time_inputs(
                     MODEL,
                     {"road_height": lambda t, f=frequency: np.sin(2.0 * np.pi * f * t)},
@@ -240,9 +238,8 @@ class TestFunctions:
             time_inputs(MODEL, {"road_height": lambda t: 1.0 / t}, (0.0, 1.0))
         assert "'road_height', at t = 0 s" in caught.value.__notes__[0]
 
-    def test_too_long_for_calls_is_refused(self):
-        with pytest.raises(InputError, match="Give samples"):
-            time_inputs(MODEL, {"road_height": np.sin}, (0.0, 1e6))
+    def test_too_long_for_calls_is_refused(self, refused):
+        refused(InputError, lambda: time_inputs(MODEL, {"road_height": np.sin}, (0.0, 1e6)))
 
 
 @pytest.mark.parametrize("backend", BACKENDS)

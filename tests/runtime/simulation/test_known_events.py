@@ -199,20 +199,21 @@ def test_a_function_of_few_digits_is_zero_for_a_while(method):
 
 
 @each_method
-def test_a_function_that_stays_zero_is_an_error(method):
-    with pytest.raises(SimulationError, match="event stays at zero"):
-        simulate(
+def test_a_function_that_stays_zero_is_an_error(method, refused):
+    refused(
+        SimulationError,
+        lambda: simulate(
             MODEL, (0.0, 0.3), START, method=method, events=lambda time, _: min(0.0, time - 0.1)
-        )
+        ),
+    )
 
 
 @pytest.mark.parametrize("method", native_methods())
-def test_an_event_that_gives_up_in_the_middle(method):
+def test_an_event_that_gives_up_in_the_middle(method, refused):
     def event(time, _):
         return np.nan if time > 0.1 else 1.0
 
-    with pytest.raises(InputError, match="a finite number is needed"):
-        simulate(MODEL, (0.0, 0.3), START, method=method, events=event)
+    refused(InputError, lambda: simulate(MODEL, (0.0, 0.3), START, method=method, events=event))
 
 
 @pytest.mark.parametrize("method", native_methods())

@@ -115,12 +115,14 @@ def test_steps_end_where_the_stop_is_touched(equations):
         assert lengths[step - 1 : step + 2].min() <= 4e-3 * lengths.max()
 
 
-def test_where_rates_jump_there_is_none(equations):
+def test_where_rates_jump_there_is_none(equations, refused):
     """A damper in the tyre pushes at once when the wheel lands."""
     system = kintrafo.System(equations, DAMPED.parameters)
     start = np.array(kintrafo.equilibrium(DAMPED))
-    with pytest.raises(InputError, match=r"at t = 0\.\d+ s the rate of beta[15]_rate jumps"):
-        kintrafo.motion_gradient(system, SPAN, start, OF, inputs=BUMP, t_eval=TIMES)
+    refused(
+        InputError,
+        lambda: kintrafo.motion_gradient(system, SPAN, start, OF, inputs=BUMP, t_eval=TIMES),
+    )
 
 
 def test_a_mechanism_without_inputs():

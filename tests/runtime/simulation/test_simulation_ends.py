@@ -75,13 +75,12 @@ def test_a_dense_result_ends_where_the_motion_does(method, end):
             sol(beyond)
 
 
-def test_of_a_motion_that_ends_early_only_that_is_known():
+def test_of_a_motion_that_ends_early_only_that_is_known(refused):
     with pytest.raises(SimulationError) as caught:
         simulate(CRANK, (0.0, 1.0), TURNING, dense_output=True, max_steps=20)
     sol, reached = caught.value.partial.sol, caught.value.time
     assert sol.t_max == reached
-    with pytest.raises(InputError, match=f"known from 0 s to {reached:.15g} s"):
-        sol(1.0)
+    refused(InputError, lambda: sol(1.0))
 
 
 def test_a_broken_native_module_is_not_called_missing(monkeypatch):
@@ -238,24 +237,21 @@ def test_an_error_reports_the_last_step_and_not_the_last_output(method):
 
 @pytest.mark.parametrize("method", [*native_methods()[:2], "RK45"])
 @pytest.mark.parametrize("given", [np.nan, np.inf, None, "x", 1j, np.ones(2)], ids=str)
-def test_an_event_without_a_number_ends_the_motion(method, given):
+def test_an_event_without_a_number_ends_the_motion(method, given, refused):
     """A solver takes NaN for "no crossing", and calls it a success."""
 
     def height(time, _state):
         return given if time > 0.01 else 1.0
 
-    with pytest.raises(InputError, match=r"height at 0\.0.* s = .*: a finite number"):
-        simulate(CRANK, (0.0, 0.1), TURNING, method=method, events=height)
+    refused(InputError, lambda: simulate(CRANK, (0.0, 0.1), TURNING, method=method, events=height))
 
 
-def test_what_an_event_says_of_itself_is_checked():
+def test_what_an_event_says_of_itself_is_checked(refused):
     def height(*_):
         return 1.0
 
     height.direction, height.terminal = "up", -1
-    with pytest.raises(InputError, match="direction of height = 'up'") as error:
-        simulate(CRANK, (0.0, 0.1), TURNING, events=height)
-    assert "terminal of height = -1" in str(error.value)
+    refused(InputError, lambda: simulate(CRANK, (0.0, 0.1), TURNING, events=height))
 
 
 @needs_sundials

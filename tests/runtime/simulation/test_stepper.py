@@ -159,26 +159,16 @@ def test_what_is_assigned_is_copied():
         assigned.length = 0.5
 
 
-@pytest.mark.parametrize(
-    ("inputs", "words"),
-    [
-        (0.01, r"inputs = 0\.01: 5 numbers are needed, in a row"),
-        ([0.01], r"inputs = \[0\.01\]: 5 numbers"),
-        (np.zeros(4), "inputs = array.*: 5 numbers"),
-        (np.zeros((1, 5)), "inputs = array.*: 5 numbers"),
-        ({"road_height": 0.01}, "inputs = .*road_height.*: 5 numbers"),
-        ("road_height", "inputs = 'road_height': numbers are needed"),
-        ([1j] * 5, "numbers are needed"),
-    ],
-)
-def test_inputs_of_a_step_are_as_many_as_the_model_has(inputs, words):
+def test_inputs_of_a_step_are_as_many_as_the_model_has(refused):
     """One number would be the place of the rack, and every other input."""
     stepper = kintrafo.Stepper(MODEL, STEP, kintrafo.equilibrium(MODEL))
     before = stepper.inputs.copy()
-    with pytest.raises(kintrafo.InputError, match=words):
-        stepper.step(inputs)
-    with pytest.raises(kintrafo.InputError, match=words):
-        stepper.inputs = inputs
+    wrong = np.zeros(4), np.zeros((1, 5))
+    for inputs in (0.01, [0.01], *wrong, {"road_height": 0.01}, "road_height", [1j] * 5):
+        with refused(kintrafo.InputError):
+            stepper.step(inputs)
+        with refused(kintrafo.InputError):
+            stepper.inputs = inputs
     np.testing.assert_array_equal(stepper.inputs, before)
     assert stepper.time == 0.0
 

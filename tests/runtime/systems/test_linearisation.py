@@ -249,10 +249,9 @@ def test_what_cannot_be_linearised_is_refused(arguments, refused):
     refused(InputError, lambda: linearise(HELD, **({"state": REST} | arguments)))
 
 
-def test_unknown_source_and_resonance_of_the_spin_are_refused():
+def test_unknown_source_and_resonance_of_the_spin_are_refused(refused):
     linear = linearise(HELD, REST)
-    with pytest.raises(InputError, match=r"'road' is not known. Did you mean road_height"):
-        linear.frequency_response([1.0], "road")
+    refused(InputError, lambda: linear.frequency_response([1.0], "road"))
     with pytest.raises(InputError, match="0 Hz"):
         linear.frequency_response([0.0], "road_height")
 

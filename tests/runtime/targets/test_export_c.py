@@ -119,63 +119,54 @@ def test_equations_without_a_compiler_have_their_c_all_the_same(tmp_path):
 # -- errors ---------------------------------------------------------------------------------------
 
 
-def test_what_cannot_be_used_is_refused(tmp_path):
+def test_what_cannot_be_used_is_refused(tmp_path, refused):
     system = system_named("four_bar")
-    with pytest.raises(kintrafo.InputError, match="'matlab' is not known"):
-        kintrafo.export_model(system, tmp_path / "c", "matlab")
-    with pytest.raises(kintrafo.InputError, match="fmi is not an option of an export to 'c'"):
-        kintrafo.export_model(system, tmp_path / "c", "c", fmi=2)
-    with pytest.raises(kintrafo.InputError, match="'crank_torq' is not known"):
-        kintrafo.export_model(system, tmp_path / "c", "c", inputs={"crank_torq": 1.0})
-    with pytest.raises(kintrafo.InputError, match="last dimension must be 2"):
-        kintrafo.export_model(system, tmp_path / "c", "c", state=[1.0])
-    with pytest.raises(kintrafo.InputError, match=r"kintrafo.System is needed"):
-        kintrafo.export_model("reference_car", tmp_path / "c", "c")
+    refused(
+        kintrafo.InputError,
+        lambda: kintrafo.export_model(system, tmp_path / "c", "matlab"),
+        lambda: kintrafo.export_model(system, tmp_path / "c", "c", fmi=2),
+        lambda: kintrafo.export_model(system, tmp_path / "c", "c", inputs={"crank_torq": 1.0}),
+        lambda: kintrafo.export_model(system, tmp_path / "c", "c", state=[1.0]),
+        lambda: kintrafo.export_model("reference_car", tmp_path / "c", "c"),
+    )
     assert not [*tmp_path.iterdir()]
 
 
-def test_a_folder_with_other_files_is_left_alone(tmp_path):
+def test_a_folder_with_other_files_is_left_alone(tmp_path, refused):
     system, folder = system_named("four_bar"), tmp_path / "work"
     folder.mkdir()
     (folder / "thesis.tex").write_text("a year of work")
     for force in (False, True):
-        with pytest.raises(kintrafo.InputError, match="holds other files: thesis"):
+        with refused(kintrafo.InputError):
             kintrafo.export_model(system, folder, "c", force=force)
     assert [file.name for file in folder.iterdir()] == ["thesis.tex"]
-    with pytest.raises(kintrafo.InputError, match="not a folder"):
-        kintrafo.export_model(system, folder / "thesis.tex", "c")
+    refused(kintrafo.InputError, lambda: kintrafo.export_model(system, folder / "thesis.tex", "c"))
 
 
-def test_nothing_is_half_written(tmp_path):
+def test_nothing_is_half_written(tmp_path, refused):
     """No file appears if one must not be replaced; a later export replaces all of them."""
     system, folder = system_named("four_bar"), tmp_path / "c"
     folder.mkdir()
     (folder / "four_bar.h").write_text("by hand")
-    with pytest.raises(kintrafo.InputError, match="exists already"):
-        kintrafo.export_model(system, folder, "c")
+    refused(kintrafo.InputError, lambda: kintrafo.export_model(system, folder, "c"))
     assert [file.name for file in folder.iterdir()] == ["four_bar.h"]
     kintrafo.export_model(system, folder, "c", force=True)
     assert len([*folder.iterdir()]) == 15
     kintrafo.export_model(system, folder, "c")
 
 
-def test_damaged_equations_are_named(tmp_path, monkeypatch):
+def test_damaged_equations_are_named(tmp_path, monkeypatch, refused):
     system = system_named("four_bar")
     monkeypatch.setitem(system.equations.equations.manifest, "sources", ["gone.c"])
-    with pytest.raises(kintrafo.InputError, match=r"gone\.c is missing"):
-        kintrafo.export_model(system, tmp_path / "c", "c")
+    refused(kintrafo.InputError, lambda: kintrafo.export_model(system, tmp_path / "c", "c"))
 
 
-def test_the_command(kintrafo, tmp_path):
+def test_the_command(kintrafo, tmp_path, ends):
     code, out, _ = kintrafo("export", "reference_car", "--to", "c")
     assert (code, out.strip()) == (0, "reference_car_c")
     assert (tmp_path / "reference_car_c/macpherson_values.c").exists()
     code, out, _ = kintrafo("export", "four_bar", "--to", "c", "-o", "bar", "--json")
     assert code == 0
     assert '"equations": "four_bar"' in out
-    code, _, err = kintrafo("export", "four_bar", "--to", "matlab")
-    assert code == 2
-    assert "'matlab' is not known" in err
-    code, _, err = kintrafo("export", "four_bra", "--to", "c")
-    assert code == 2
-    assert "'four_bra' is not known. Did you mean four_bar?" in " ".join(err.split())
+    ends(2, "export", "four_bar", "--to", "matlab")
+    ends(2, "export", "four_bra", "--to", "c")

@@ -255,18 +255,18 @@ def test_derivatives_are_those_of_the_linearisation(fmu, name, version):
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_derivatives_of_other_variables_are_refused(fmu, version):
+def test_derivatives_of_other_variables_are_refused(fmu, version, as_stored):
     instance = fmu("four_bar", version).instance("ModelExchange")
     instance.initialise()
     instance.derivative(["parameters.crank_mass"], ["crank_angle"], [1.0])
     assert instance.status == ERROR
-    assert "neither a derivative of a state" in instance.message
+    as_stored(instance.message)
     instance.derivative(["spring_force"], ["parameters.crank_mass"], [1.0])
     assert instance.status == ERROR
-    assert "those by crank_mass are not there" in instance.message
+    as_stored(instance.message)
     instance.derivative(["spring_force"], ["solver.step"], [1.0])
     assert instance.status == ERROR
-    assert "neither a state, nor an input, nor a parameter" in instance.message
+    as_stored(instance.message)
 
 
 @pytest.mark.parametrize("version", VERSIONS)
@@ -300,7 +300,7 @@ def test_derivatives_by_parameters(tmp_path, version):
     instance.free()
 
 
-def test_parameters_that_cannot_move_alone_are_refused(tmp_path):
+def test_parameters_that_cannot_move_alone_are_refused(tmp_path, as_stored):
     """Also beside others, however little they move."""
     module = kintrafo.compile(WHEEL_ON_A_YOKE, parameter_derivatives=True, backend="numpy")
     system = kintrafo.System(module)
@@ -320,9 +320,7 @@ def test_parameters_that_cannot_move_alone_are_refused(tmp_path):
         named = [f"parameters.{name}" for name in knowns]
         instance.derivative(rates, named, [1.0, 1e-6][-len(named) :])
         assert instance.status == ERROR
-        assert (
-            "cannot move alone. They leave what the equations take to be zero" in instance.message
-        )
+        as_stored(instance.message)
     instance.free()
 
 
@@ -368,7 +366,7 @@ def test_inputs_go_on_by_their_derivatives(fmu, version):
     instance.free()
 
 
-def test_slopes_of_inputs(fmu):
+def test_slopes_of_inputs(fmu, as_stored):
     """FMI 2.0 sets derivatives of inputs by their order; rates in the equations are inputs, too."""
     instance = fmu("reference_car", 2).instance()
     assert instance.initialise(tolerance=1e-12) == OK
@@ -387,13 +385,13 @@ def test_slopes_of_inputs(fmu):
     # a cubic through samples of a parabola, whose ends are free
     assert instance.get("beta1")[0] == pytest.approx(wanted, abs=1e-7)
     assert instance.slopes({"road_height": 4}, [1.0]) == ERROR
-    assert "order 4 of road_height: 1 to 3" in instance.message
+    as_stored(instance.message)
     assert instance.slopes({"tyre_force": 1}, [1.0]) == ERROR
-    assert "is no input" in instance.message
+    as_stored(instance.message)
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_a_motion_that_ends_is_reported(fmu, version):
+def test_a_motion_that_ends_is_reported(fmu, version, as_stored):
     """A crank is driven to its dead point: the message of the step has the time and the reason."""
     system = kintrafo.System(system_named("four_bar").equations, SHORT)
     torque = {"crank_torque": 10.0}
@@ -408,9 +406,9 @@ def test_a_motion_that_ends_is_reported(fmu, version):
     assert time <= ends <= time + length
     # of the usual tolerance
     assert instance.reached.value == pytest.approx(ends, abs=1e-4)
-    assert "cannot close" in instance.message
+    as_stored(instance.message)
     assert instance.step(instance.reached.value, length) == DISCARD
-    assert "has ended" in instance.message
+    as_stored(instance.message)
     assert instance.call("Reset") == OK
     assert instance.initialise() == OK
     assert instance.step(0.0, length) == OK
@@ -465,7 +463,7 @@ def test_steps_of_an_importer_do_not_pass_a_dead_point(fmu, version, torque, rat
         instance.free()
 
 
-def test_a_motion_from_rest_near_a_dead_point(fmu):
+def test_a_motion_from_rest_near_a_dead_point(fmu, as_stored):
     """A spring that is short pulls away from it, a long one pushes into it."""
     equations = system_named("four_bar").equations
     at = -1.2319890578876  # the crank's dead point [rad]
@@ -485,12 +483,12 @@ def test_a_motion_from_rest_near_a_dead_point(fmu):
     instance = fmu("four_bar", 2).instance("ModelExchange")
     assert instance.initialise(crank_angle=at + 1e-13, **parameters(SHORT)) == OK
     assert integrated(instance, 0.1, 1e-3) == 1e-3
-    assert "begins in a dead point: the loop ground" in instance.message
+    as_stored(instance.message)
     instance.free()
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_events_have_indicators(fmu, version):
+def test_events_have_indicators(fmu, version, as_stored):
     known = fmu("reference_car", version)
     names = [n for n in known.references if n.startswith(("events.", "margins."))]
     system = system_named("reference_car")
@@ -510,12 +508,12 @@ def test_events_have_indicators(fmu, version):
     assert instance.call("EnterContinuousTimeMode") == OK
     assert instance.call("EnterEventMode") == OK
     assert not instance.update()
-    assert "events.wheel_leaves_ground at 0 s: the tyre force falls to nothing" in instance.message
+    as_stored(instance.message)
     instance.free()
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_a_state_that_is_refused_is_discarded(fmu, version):
+def test_a_state_that_is_refused_is_discarded(fmu, version, as_stored):
     instance = fmu("four_bar", version).instance("ModelExchange")
     assert instance.initialise(**parameters(SHORT)) == OK
     assert not instance.update()
@@ -526,11 +524,10 @@ def test_a_state_that_is_refused_is_discarded(fmu, version):
         system.evaluate("rhs", [-1.5, 0.0])
     instance.array("GetDerivatives", "GetContinuousStateDerivatives", 2)
     assert instance.status == DISCARD
-    assert "cannot close" in instance.message
-    assert "rocker_closure = -" in instance.message
+    as_stored(instance.message)
     instance.call("EnterEventMode")
     assert instance.update()
-    assert "the motion ends at 0.1 s" in instance.message
+    as_stored(instance.message)
     instance.free()
 
 
@@ -620,12 +617,12 @@ def test_parameters_are_those_that_are_set(fmu, version):
         ({"solver.implicit": 1.0}, "solver.implicit = 1 needs fixed steps: give solver.step"),
     ],
 )
-def test_parameters_out_of_range(fmu, version, values, words):
+def test_parameters_out_of_range(fmu, version, values, words, as_stored):
     instance = fmu("four_bar", version).instance()
     assert instance.initialise(**values) == ERROR
     assert words in instance.message
     assert instance.step(0.0, 0.1) == ERROR
-    assert "cannot be called now" in instance.message
+    as_stored(instance.message)
     instance.free()
 
 
@@ -652,12 +649,12 @@ def test_inertia_of_no_body(fmu, values, fine):
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_calls_that_make_no_sense(fmu, version):
+def test_calls_that_make_no_sense(fmu, version, as_stored):
     known = fmu("four_bar", version)
     assert known.instance(token="{of another}").handle is None
     instance = known.instance()
     assert instance.step(0.0, 0.1) == ERROR
-    assert "the instance is instantiated" in instance.message
+    as_stored(instance.message)
     assert instance.initialise() == OK
     for time, length, words in (
         (0.0, 0.0, "a step of 0 s"),
@@ -667,17 +664,17 @@ def test_calls_that_make_no_sense(fmu, version):
         assert instance.step(time, length) == ERROR
         assert words in instance.message
     assert instance.set({"spring_force": 1.0}) == ERROR
-    assert "is computed" in instance.message
+    as_stored(instance.message)
     assert instance.set({"crank_torque": 1.0, "parameters.crank_mass": 1.0}) == ERROR
-    assert "crank_mass is fixed" in instance.message
+    as_stored(instance.message)
     assert instance.get("crank_torque") == [0.0]  # all or nothing
     assert instance.set({"crank_torque": float("inf")}) == ERROR
     instance.get(10_000)
     assert instance.status == ERROR
-    assert "no variable with the value reference 10000" in instance.message
+    as_stored(instance.message)
     instance.array("GetDerivatives", "GetContinuousStateDerivatives", 2)
     assert instance.status == ERROR
-    assert "one for Co-Simulation" in instance.message
+    as_stored(instance.message)
     assert instance.step(0.0, 0.1) == OK
     assert instance.call("Terminate") == OK
     assert instance.step(0.1, 0.1) == ERROR
@@ -699,20 +696,14 @@ def test_every_function_of_fmi_3_is_there(fmu):
     assert library.fmi3InstantiateScheduledExecution(*[None] * 10) is None
 
 
-def test_what_cannot_be_exported(tmp_path):
+def test_what_cannot_be_exported(tmp_path, refused):
     system = system_named("four_bar")
-    for options, words in (
-        ({"fmi": 1}, "fmi '1' is not known"),
-        ({"platforms": ["amiga"]}, "'amiga' is not known"),
-        ({"speed": 1}, "speed is not an option of an export to 'fmu', which has fmi, platforms"),
-    ):
-        with pytest.raises(kintrafo.InputError, match=words):
+    for options in ({"fmi": 1}, {"platforms": ["amiga"]}, {"speed": 1}):
+        with refused(kintrafo.InputError):
             kintrafo.export_model(system, tmp_path / "a.fmu", "fmu", **options)
-    with pytest.raises(kintrafo.InputError, match=r"must end in \.fmu"):
-        kintrafo.export_model(system, tmp_path / "a.zip", "fmu")
+    refused(kintrafo.InputError, lambda: kintrafo.export_model(system, tmp_path / "a.zip", "fmu"))
     (tmp_path / "a.fmu").write_text("a year of work")
-    with pytest.raises(kintrafo.InputError, match="exists already"):
-        kintrafo.export_model(system, tmp_path / "a.fmu", "fmu")
+    refused(kintrafo.InputError, lambda: kintrafo.export_model(system, tmp_path / "a.fmu", "fmu"))
     assert [file.name for file in tmp_path.iterdir()] == ["a.fmu"]
     assert (tmp_path / "a.fmu").read_text() == "a year of work"
 
@@ -724,7 +715,7 @@ def test_an_export_again_has_the_same_bytes(tmp_path):
     assert paths[0].read_bytes() == paths[1].read_bytes()
 
 
-def test_the_command(kintrafo, tmp_path):
+def test_the_command(kintrafo, tmp_path, ends):
     code, out, err = kintrafo("export", "four_bar", "--to", "fmu", "--fmi", 3)
     assert (code, out.strip()) == (0, "four_bar.fmu"), err
     with zipfile.ZipFile(tmp_path / "four_bar.fmu") as archive:
@@ -732,18 +723,14 @@ def test_the_command(kintrafo, tmp_path):
     code, _, err = kintrafo("export", "four_bar", "--to", "fmu", "--platform", "none")
     with zipfile.ZipFile(tmp_path / "four_bar.fmu") as archive:
         assert not any(name.startswith("binaries") for name in archive.namelist())
-    code, _, err = kintrafo("export", "four_bar", "--to", "c", "--fmi", 3)
-    assert code == 2
-    assert "--fmi is only for --to fmu" in " ".join(err.split())
-    code, _, err = kintrafo("export", "four_bar", "--to", "fmu", "--platform", "amiga")
-    assert code == 2
-    assert "'amiga' is not known" in err
+    ends(2, "export", "four_bar", "--to", "c", "--fmi", 3)
+    ends(2, "export", "four_bar", "--to", "fmu", "--platform", "amiga")
 
 
-def test_a_start_at_which_nothing_can_move_is_refused(tmp_path):
+def test_a_start_at_which_nothing_can_move_is_refused(tmp_path, refused):
     system = kintrafo.System(system_named("four_bar").equations, SHORT)
     for to in ("fmu", "c"):
-        with pytest.raises(kintrafo.ClosureError, match="cannot close"):
+        with refused(kintrafo.ClosureError):
             kintrafo.export_model(system, tmp_path / "a.fmu", to, state=[-1.55, 0.0])
     assert not [*tmp_path.iterdir()]
 
@@ -782,15 +769,12 @@ def test_casadi_has_the_equations_with_their_derivatives(fmu, version):
         np.testing.assert_array_equal(np.array(found[f"jac_{name}"]), matrix)
 
 
-def test_a_platform_without_a_compiler(tmp_path, monkeypatch):
+def test_a_platform_without_a_compiler(tmp_path, monkeypatch, refused):
     """The error names what to install, and nothing is written; sources alone need none."""
     system, path = system_named("prescribed"), tmp_path / "a.fmu"
     without_compilers(monkeypatch)
-    for platform, words in (
-        ("windows", r"pip install .kintrafo\[windows\]"),
-        ("linux", "apt-get install gcc"),
-    ):
-        with pytest.raises(kintrafo.CompilerError, match=words):
+    for platform in ("windows", "linux"):
+        with refused(kintrafo.CompilerError):
             kintrafo.export_model(system, path, "fmu", platforms=[platform])
     assert not [*tmp_path.iterdir()]
     kintrafo.export_model(system, path, "fmu", platforms=())
@@ -807,7 +791,7 @@ def without_compilers(monkeypatch):
 def test_another_processor_has_no_library(tmp_path, monkeypatch):
     """A folder of libraries for x86-64 never has one for another processor."""
     monkeypatch.setattr(binaries, "HERE", ())
-    with pytest.raises(kintrafo.CompilerError, match="processors of the kind x86-64 cannot be"):
+    with pytest.raises(kintrafo.CompilerError, match="x86-64"):
         kintrafo.export_model(
             system_named("prescribed"), tmp_path / "a.fmu", "fmu", platforms=["linux"]
         )

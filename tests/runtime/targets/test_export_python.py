@@ -148,15 +148,14 @@ def test_casadi_names_conditions_of_parameters(module_of):
     assert np.isnan(module.prepare(flat).full()).all()
 
 
-def test_casadi_lets_nothing_be_forgotten(module_of):
+def test_casadi_lets_nothing_be_forgotten(module_of, refused):
     module = module_of(CLOSED, "casadi")
     constants = module.prepare(module.parameters())
     whole = module.rhs(state=module.state(), constants=constants)["rhs"].full()
     assert_close(whole, system_of(CLOSED).evaluate("rhs", module.state().full().ravel(), [0.0]))
     assert np.isnan(module.rhs(state=module.state())["rhs"].full()).all()
     assert np.isnan(module.prepare()["constants"].full()).any()
-    with pytest.raises(ValueError, match="there is no parameter 'crank_mas'"):
-        module.parameters(crank_mas=1.0)
+    refused(ValueError, lambda: module.parameters(crank_mas=1.0))
 
 
 def test_casadi_has_the_start_that_was_exported(tmp_path):
@@ -270,18 +269,16 @@ def test_jax_has_nan_where_a_loop_cannot_close(jax, module_of):
 
 
 @pytest.mark.skipif(find_compiler() is None, reason="no C compiler")
-def test_jax_calls_the_compiled_c(jax, tmp_path):
+def test_jax_calls_the_compiled_c(jax, tmp_path, refused):
     """Values and derivatives, forward and backward, have the bits of the C."""
     system = kintrafo.System(system_named(CLOSED).equations, OPEN)
     folder = kintrafo.export_model(system, tmp_path / "c", "c")
     library = library_for_jax(jax, folder, tmp_path / "four_bar.so")
     module = loaded(folder / "four_bar_ffi.py")
     assert system.input_names == module.INPUT_NAMES
-    with pytest.raises(RuntimeError, match=r"call load\(...\) with the library of four_bar_ffi.c"):
-        module.rhs(module.STATE, module.INPUTS)
+    refused(RuntimeError, lambda: module.rhs(module.STATE, module.INPUTS))
     module.load(library)
-    with pytest.raises(RuntimeError, match=r"four_bar\.so is loaded already"):
-        module.load(library)
+    refused(RuntimeError, lambda: module.load(library))
     states = np.array([[0.2, 3.0], [0.3, -1.0]])
     inputs = np.array([2.0])
     for name in ("rhs", "signals"):
@@ -300,11 +297,9 @@ def test_jax_calls_the_compiled_c(jax, tmp_path):
     assert np.isnan(module.rhs(dead, inputs)).tolist() == [[False, False], [True, True]]
     with pytest.raises(ValueError, match="cannot be differentiated"):
         jax.hessian(lambda state: module.rhs(state, inputs)[1])(states[0])
-    with pytest.raises(ValueError, match="the last dimension of inputs must be 1"):
-        module.rhs(states, np.zeros(2))
+    refused(ValueError, lambda: module.rhs(states, np.zeros(2)))
     jax.config.update("jax_enable_x64", False)
-    with pytest.raises(TypeError, match="four_bar needs double precision"):
-        module.rhs(states, inputs)
+    refused(TypeError, lambda: module.rhs(states, inputs))
 
 
 @pytest.mark.skipif(
@@ -352,41 +347,41 @@ def test_jax_takes_many_states_and_parameters_at_a_time(jax, tmp_path, lanes):
     assert np.array_equal(
         cross[aligned, aligned], module.rhs(states, inputs, constants), equal_nan=True
     )
-    with pytest.raises(TypeError, match="no derivatives by constants and parameters"):
+    with pytest.raises(TypeError, match="constants and parameters"):
         jax.grad(lambda c: module.rhs(states[0], inputs[0], c)[1])(constants[0])
     with pytest.raises(ValueError, match="cannot be differentiated"):
         jax.grad(lambda p: module.prepare(p)[0])(sets[0])
 
 
-def test_jax_refuses_single_precision_and_other_shapes(jax, module_of):
+def test_jax_refuses_single_precision_and_other_shapes(jax, module_of, refused):
     module = module_of(CLOSED, "jax")
     constants = system_named(CLOSED).constants
-    with pytest.raises(ValueError, match=r"four_bar\.rhs: the last dimension of state must be 2"):
-        module.rhs(np.zeros(1), module.inputs(), constants)
-    with pytest.raises(ValueError, match="there is no input 'torque'"):
-        module.inputs(torque=1.0)
+    refused(
+        ValueError,
+        lambda: module.rhs(np.zeros(1), module.inputs(), constants),
+        lambda: module.inputs(torque=1.0),
+    )
     jax.config.update("jax_enable_x64", False)
-    with pytest.raises(TypeError, match="four_bar needs double precision: call jax"):
-        module.rhs(np.zeros(2), np.zeros(1), constants)
+    refused(TypeError, lambda: module.rhs(np.zeros(2), np.zeros(1), constants))
 
 
 # -- errors ---------------------------------------------------------------------------------------
 
 
-def test_what_cannot_be_exported_is_refused(tmp_path):
-    system = system_named("four_bar")
+def test_what_cannot_be_exported_is_refused(tmp_path, refused):
+    def export(of="four_bar", name="bar_casadi.py", **options):
+        kintrafo.export_model(system_named(of), tmp_path / name, "casadi", **options)
 
-    def refused(match, of=system, name="bar_casadi.py", **options):
-        with pytest.raises(kintrafo.InputError, match=match):
-            kintrafo.export_model(of, tmp_path / name, "casadi", **options)
-
-    refused("pose_of_knuckle: Newton's method", system_named("multi_link"))
-    refused(r"such as bar_casadi\.py", name="bar.txt")
-    refused(r"such as casadi_casadi\.py", name="casadi.py")
-    refused("fmi is not an option of an export to 'casadi', which has none", fmi=2)
+    refused(
+        kintrafo.InputError,
+        lambda: export("multi_link"),
+        lambda: export(name="bar.txt"),
+        lambda: export(name="casadi.py"),
+        lambda: export(fmi=2),
+    )
     assert not [*tmp_path.iterdir()]
     (tmp_path / "bar_casadi.py").write_text("by hand")
-    refused("exists already")
+    refused(kintrafo.InputError, export)
 
 
 def test_jax_warns_of_many_operations(tmp_path, monkeypatch):
@@ -394,19 +389,17 @@ def test_jax_warns_of_many_operations(tmp_path, monkeypatch):
     monkeypatch.setattr(python_module, "MOST_OF_JAX", 100)
     monkeypatch.setattr(python_module, "_write", lambda library, *_, **__: library)
     count = system_named(CLOSED).equations.equations.manifest["functions"]["rhs"]["operations"]
-    with pytest.warns(RuntimeWarning, match=f"{count['total']} operations. Above 100 .* jax.ffi"):
+    with pytest.warns(RuntimeWarning, match=f"{count['total']} .* 100 .* jax.ffi"):
         kintrafo.export_model(system_named(CLOSED), tmp_path / "a.py", "jax")
     kintrafo.export_model(system_named(CLOSED), tmp_path / "a.py", "casadi")
 
 
-def test_equations_must_be_those_of_their_declaration(tmp_path, monkeypatch):
+def test_equations_must_be_those_of_their_declaration(tmp_path, monkeypatch, refused):
     held = system_named("prescribed")  # compiled before, or elsewhere
-    with pytest.raises(kintrafo.InputError, match=r"Call kintrafo\.compile first"):
-        kintrafo.export_model(held, tmp_path / "a.py", "jax")
+    refused(kintrafo.InputError, lambda: kintrafo.export_model(held, tmp_path / "a.py", "jax"))
     system = kintrafo.System(kintrafo.compile(FOUR_BAR, backend="numpy"))
     monkeypatch.setattr(system.equations, "MECHANISM_HASH", "another")
-    with pytest.raises(kintrafo.InputError, match="now has other equations"):
-        kintrafo.export_model(system, tmp_path / "a.py", "jax")
+    refused(kintrafo.InputError, lambda: kintrafo.export_model(system, tmp_path / "a.py", "jax"))
     assert not [*tmp_path.iterdir()]
 
 

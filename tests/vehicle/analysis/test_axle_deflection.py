@@ -278,23 +278,23 @@ def test_what_cannot_be_is_refused(given, refused):
     refused(InputError, lambda: compliance.nonlinear(axle_of(STRUT), **usual | given))
 
 
-def test_motions_that_cannot_be_are_refused():
-    for motion, along, words in (
-        ("jump", None, "motion"),
-        ("steer", None, "not steered"),
-        ("roll", [2.0], "45 deg"),
-    ):
-        with pytest.raises(InputError, match=words):
+def test_motions_that_cannot_be_are_refused(refused):
+    for motion, along in (("jump", None), ("steer", None), ("roll", [2.0])):
+        with refused(InputError):
             compliance.elastokinematics(without_bar(TRAILING), BUSHES_OF[TRAILING], motion, along)
     for wrong in ({"motion": "roll", "travel": 0.01}, {"motion": "steer", "rack_position": 0.01}):
-        with pytest.raises(InputError, match="the motion 'steer'"):
+        with refused(InputError):
             compliance.elastokinematics(axle_of(STRUT), RACK, **wrong)
     weak = {"arm_inner": {"axial_N_per_mm": 1.0, "radial_N_per_mm": 1.0}}
     heavy = Axle.from_dict(
         {"axle": "rear", "side": TRAILING.with_changes({"spring.force_at_design_N": 4000.0})}
     )
-    with pytest.raises(PositionError, match=r"at a roll angle of 1\.5 deg"):
-        compliance.elastokinematics(heavy, weak, "roll", np.deg2rad([1.5]), hardpoints="relaxed")
+    refused(
+        PositionError,
+        lambda: compliance.elastokinematics(
+            heavy, weak, "roll", np.deg2rad([1.5]), hardpoints="relaxed"
+        ),
+    )
 
 
 def test_loads_that_nothing_holds_are_refused(monkeypatch, refused):
@@ -308,7 +308,7 @@ def test_loads_that_nothing_holds_are_refused(monkeypatch, refused):
 
 
 @pytest.mark.usefixtures("rough_drawings")
-def test_tables_have_each_wheel_and_both():
+def test_tables_have_each_wheel_and_both(refused):
     found = compliance.elastokinematics(axle_of(STRUT), RACK, "roll", [0.0, 0.02])
     chapter = elastokinematics_chapter(found)
     left, right, both = chapter.tables
@@ -321,8 +321,7 @@ def test_tables_have_each_wheel_and_both():
     assert both.rows[1][1] == f"{stiffness:.4f}"
     words = "Curves over roll angle with rigid joints and on the bushes"
     assert [picture.words for picture in chapter.pictures] == [f"{words}, {i} of 2" for i in (1, 2)]
-    with pytest.raises(InputError, match="one or more are needed"):
-        elastokinematics_chapter()
+    refused(InputError, elastokinematics_chapter)
 
 
 @pytest.mark.parametrize(

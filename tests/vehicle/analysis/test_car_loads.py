@@ -258,18 +258,17 @@ def test_a_gradient_of_the_torque_is_its_slope(car):
     np.testing.assert_allclose(right["steering_torque"], -torque, rtol=1e-6)
 
 
-def test_a_simulation_of_the_equations_has_them_too(car):
+def test_a_simulation_of_the_equations_has_them_too(car, refused):
     assembly = driving_car("test", car).assembly
     start = assembly.running(15.0)
     found = kintrafo.simulate(assembly.model, (0.0, 0.1), start)
     assert np.abs(along(assembly.model, found)["holding_force"]).max() < 1e-5
     model = kintrafo.CarModel(kintrafo.load("quarter_car"))
     found = kintrafo.simulate(model, (0.0, 0.01), kintrafo.equilibrium(model))
-    with pytest.raises(kintrafo.InputError, match='a car with car = "full"'):
-        along(model, found)
+    refused(kintrafo.InputError, lambda: along(model, found))
 
 
-def test_the_command_writes_them_and_prints_the_greatest(kintrafo, tmp_path):
+def test_the_command_writes_them_and_prints_the_greatest(kintrafo, tmp_path, ends):
     file = tmp_path / "short.toml"
     file.write_text(
         'manoeuvre = "braking"\nspeed_km_per_h = 20.0\nuntil_km_per_h = 18.0\n'
@@ -281,5 +280,4 @@ def test_the_command_writes_them_and_prints_the_greatest(kintrafo, tmp_path):
     assert "greatest force" in out
     assert "ball_joint_front_left" in (tmp_path / "loads.csv").read_text(encoding="utf-8")
     words = ("--manoeuvre", "circle", "--loads", "loads.csv")
-    code, _, message = kintrafo("drive", "driving_car", *words)
-    assert (code, "no simulation" in message) == (2, True)
+    ends(2, "drive", "driving_car", *words)

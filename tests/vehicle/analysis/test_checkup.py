@@ -61,7 +61,7 @@ SPRINGLESS = {
 
 
 @pytest.mark.parametrize("name", SPRINGLESS)
-def test_where_only_tyres_hold_the_wheels_load_cases_have_no_equilibrium(name):
+def test_where_only_tyres_hold_the_wheels_load_cases_have_no_equilibrium(name, refused):
     """Rest on the road is stable by the tyres, and constant forces are not carried: both say so."""
     subject = load(name)
     assert NO_STIFFNESS not in " ".join(checkup(subject).notes)
@@ -73,8 +73,9 @@ def test_where_only_tyres_hold_the_wheels_load_cases_have_no_equilibrium(name):
     found = checkup(without)
     assert NO_STIFFNESS in " ".join(found.notes)
     assert all(wheel.equilibrium is not None for wheel in found.wheels)
-    with pytest.raises(PositionError, match="none of the cases has an equilibrium"):
-        loads.static(without, {"static": {"contact_g": [0.0, 0.0, 1.0]}})
+    refused(
+        PositionError, lambda: loads.static(without, {"static": {"contact_g": [0.0, 0.0, 1.0]}})
+    )
 
 
 @pytest.mark.parametrize("name", ["reference_car", "reference_axle", "rigid_axle"])

@@ -131,10 +131,12 @@ def test_what_cannot_be_used(bushings, options, refused):
     refused(InputError, lambda: compliance.linear(Model("reference_car"), bushings, **options))
 
 
-def test_without_a_spring_nothing_holds_the_wheel():
+def test_without_a_spring_nothing_holds_the_wheel(refused):
     loose = Suspension.load("reference_car").with_changes({"strut.spring_rate_N_per_m": 0.0})
-    with pytest.raises(InputError, match="nothing holds it"):
-        compliance.linear(Model(loose), {"arm_rear": {"radial_N_per_mm": 1e3}}, [0.0])
+    refused(
+        InputError,
+        lambda: compliance.linear(Model(loose), {"arm_rear": {"radial_N_per_mm": 1e3}}, [0.0]),
+    )
 
 
 # -- tyres ----------------------------------------------------------------------------------------
@@ -185,7 +187,7 @@ def test_contact_patches_of_both_wheels_go_with_their_own_loads(axle, bushes):
         np.testing.assert_allclose(give, 2000.0 * part / LATERAL, rtol=1e-9)
 
 
-def test_a_tyre_without_rate_holds_no_wheel():
+def test_a_tyre_without_rate_holds_no_wheel(refused):
     free = {"tyre.rate_N_per_m": 0.0}
     car = Suspension.load("reference_car").with_changes(free)
     rigid = RigidAxle.load("rigid_axle").with_changes(free)
@@ -195,7 +197,7 @@ def test_a_tyre_without_rate_holds_no_wheel():
             partial(compliance.linear, subject, bushes, [0.0], held="tyre"),
             partial(compliance.nonlinear, subject, bushes, "lateral", [10.0], held="tyre"),
         ):
-            with pytest.raises(InputError, match=r"\[tyre\] rate_N_per_m = 0 N/m"):
+            with refused(InputError):
                 call()
 
 
@@ -209,7 +211,7 @@ OF_THE_FILE = {
 WITH_BUSHES = Suspension.load("reference_car").with_changes({"bushings": OF_THE_FILE})
 
 
-def test_bushes_of_the_file_are_those_that_are_given():
+def test_bushes_of_the_file_are_those_that_are_given(refused):
     plain, soft = Model("reference_car"), Model(WITH_BUSHES)
     assert compliance.linear(soft, None, [0.0]).equals(compliance.linear(plain, OF_THE_FILE, [0.0]))
     other = {"arm_rear": {"axial_N_per_mm": 100.0}}
@@ -222,8 +224,7 @@ def test_bushes_of_the_file_are_those_that_are_given():
     assert compliance.elastokinematics(soft, along=[0.0]).equals(
         compliance.elastokinematics(plain, OF_THE_FILE, along=[0.0])
     )
-    with pytest.raises(InputError, match="none are given, and the hardpoint file has none"):
-        compliance.linear(plain)
+    refused(InputError, lambda: compliance.linear(plain))
 
 
 def test_bushes_are_written_and_mirrored(tmp_path):
@@ -251,7 +252,7 @@ def test_a_new_file_shows_how_bushes_are_written(kind):
     assert abs(float(compliance.linear(Model(soft), None, [0.0])["camber_by_lateral"][0])) > 0.0
 
 
-def test_each_side_of_an_axle_has_its_own_bushes():
+def test_each_side_of_an_axle_has_its_own_bushes(refused):
     other = WITH_BUSHES.mirrored().with_changes({"bushings.arm_rear.axial_N_per_mm": 5000.0})
     even = Axle.from_dict({"axle": "front", "side": WITH_BUSHES})
     odd = Axle.from_dict({"axle": "front", "right": WITH_BUSHES, "left": other})
@@ -263,8 +264,9 @@ def test_each_side_of_an_axle_has_its_own_bushes():
         float(found["toe_by_braking_parallel"].sel(wheel="left")[0])
     )
     two = other.with_changes({"bushings.rack.axial_N_per_mm": 1.0})
-    with pytest.raises(InputError, match=r"\[bushings.rack\] differs"):
-        Axle.from_dict({"axle": "front", "right": WITH_BUSHES, "left": two})
+    refused(
+        InputError, lambda: Axle.from_dict({"axle": "front", "right": WITH_BUSHES, "left": two})
+    )
 
 
 @pytest.mark.parametrize(
@@ -284,21 +286,18 @@ def test_bushes_of_the_file_that_are_none(bushings, refused):
     )
 
 
-def test_commands_take_bushes_from_the_file(kintrafo, tmp_path):
+def test_commands_take_bushes_from_the_file(kintrafo, tmp_path, ends):
     write_toml(WITH_BUSHES, tmp_path / "soft.toml")
     text = "[bushings.arm_rear]\naxial_N_per_mm = 400.0\n"
     (tmp_path / "b.toml").write_text(text, encoding="utf-8")
     soft = ("soft.toml", "--bushes", "b.toml")
     code, out, err = kintrafo("compliance", "soft.toml", "--bump", 10, "--rebound", 10)
     assert (code, "in place of" in err + out) == (0, False)
-    code, out, err = kintrafo("compliance", *soft, "--bump", 10, "--rebound", 10)
-    assert (code, "in place of any that soft.toml has" in err) == (0, True)
+    ends(0, "compliance", *soft, "--bump", 10, "--rebound", 10)
     code, out, _ = kintrafo("compliance", *soft, "--json")
     assert (code, "toe_by_lateral" in json.loads(out)["variables"]) == (0, True)
     assert kintrafo("compliance", "soft.toml", "--nonlinear", "--bump", 10, "--rebound", 10)[0] == 0
-    code, _, err = kintrafo("compliance", "reference_car")
-    assert code == 2
-    assert "hardpoint file has none" in " ".join(err.split())
+    ends(2, "compliance", "reference_car")
 
 
 def test_the_report_shows_the_bushes_of_the_file():

@@ -211,14 +211,14 @@ def test_at_a_travel_it_is_the_load_there(name, held):
     assert np.ptp(found["toe"].values, axis=-2).max() > 1e-5
 
 
-def test_what_cannot_be_used_is_refused():
+def test_what_cannot_be_used_is_refused(refused):
     car = load("reference_car")
-    for given, words in (
-        ({"under": "sideways"}, "under"),
-        ({"wheels": "opposed"}, "a corner has one wheel"),
-        ({"bushings": {}}, "one or more are needed"),
-        ({"travel": [np.nan]}, "finite"),
+    for given in (
+        {"under": "sideways"},
+        {"wheels": "opposed"},
+        {"bushings": {}},
+        {"travel": [np.nan]},
     ):
         arguments = {"bushings": OF_ARMS, "under": "lateral", "amounts": [1.0]}
-        with pytest.raises(InputError, match=words):
+        with refused(InputError):
             compliance.combined(car, **(arguments | given))

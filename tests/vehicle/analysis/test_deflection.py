@@ -278,7 +278,7 @@ def test_other_kinds_deflect_nearly_linearly(name):
 
 
 @pytest.mark.parametrize("side", ["right", "left"])
-def test_no_load_presses_a_damper_in_farther_than_it_goes(side):
+def test_no_load_presses_a_damper_in_farther_than_it_goes(side, refused):
     """By hand: a brake lifts the contact of a trailing arm as the hinge is high over how far.
 
     The spring takes that over the wheel rate, and the damper its ratio of the travel. Rates and
@@ -298,52 +298,47 @@ def test_no_load_presses_a_damper_in_farther_than_it_goes(side):
         return compliance.nonlinear(model, stiff, "braking", amounts, held="spring")
 
     assert under([-2.0 * most, 0.93 * most])["displacement"].shape == (2, 2)
-    with pytest.raises(PositionError, match="the damper is beyond its least length"):
-        under([0.0, 1.07 * most])
+    refused(PositionError, lambda: under([0.0, 1.07 * most]))
     # held at its height, the wheel does not press it in
     compliance.nonlinear(model, stiff, "braking", [2.0 * most])
 
 
-def test_what_the_suspension_cannot_do_ends_a_command_with_1(kintrafo, tmp_path):
+def test_what_the_suspension_cannot_do_ends_a_command_with_1(tmp_path, ends):
     """As the page of the command line says of all that is no mistake in what was given."""
     soft = "[bushings.arm_rear]\naxial_N_per_mm = 1.0\nradial_N_per_mm = 1.0\n"
     (tmp_path / "soft.toml").write_text(soft, encoding="utf-8")
     line = "compliance reference_car --bushes soft.toml --nonlinear --under braking --most 900000"
-    code, _, err = kintrafo(*line.split())
-    assert (code, "no stable equilibrium" in err) == (1, True)
-    code, _, err = kintrafo(*line.replace("braking", "sideways").split())
-    assert code == 2
+    ends(1, *line.split())
+    ends(2, *line.replace("braking", "sideways").split())
 
 
 def test_what_cannot_be_is_refused(refused):
     model = Model("reference_car")
     bushes = {"arm_rear": {"axial_N_per_mm": 500.0}}
-    with pytest.raises(InputError, match="under"):
-        compliance.nonlinear(model, bushes, "sideways", [1.0])
-    with pytest.raises(InputError, match="1e\\+06 N"):
-        compliance.nonlinear(model, bushes, "lateral", [1e9])
-    for curve, words in (
-        ({"mm": [0.0, 1.0]}, "two lists"),
-        ({"mm": [0.0, 1.0], "N": [0.0]}, "give two or more of each"),
-        ({"mm": [0.0, 1.0], "N": [0.0, -5.0]}, "-5 follows 0"),
-        ({"mm": [1.0, 2.0], "N": [1.0, 2.0]}, "0 mm, 0 N"),
+    refused(
+        InputError,
+        lambda: compliance.nonlinear(model, bushes, "sideways", [1.0]),
+        lambda: compliance.nonlinear(model, bushes, "lateral", [1e9]),
+    )
+    for curve in (
+        {"mm": [0.0, 1.0]},
+        {"mm": [0.0, 1.0], "N": [0.0]},
+        {"mm": [0.0, 1.0], "N": [0.0, -5.0]},
+        {"mm": [1.0, 2.0], "N": [1.0, 2.0]},
     ):
-        with pytest.raises(InputError, match=words):
+        with refused(InputError):
             compliance.elastokinematics(model, {"arm_rear": {"axial_curve": curve}}, along=[0.0])
     for point, key in (("wheel_center", "torsion_Nm_per_deg"), ("arm_rear", "tilt_Nm_per_mm")):
-        with pytest.raises(InputError, match=key):
+        with refused(InputError):
             compliance.elastokinematics(model, {point: {key: 5.0}}, along=[0.0])
     too_close = {"mm": [-1.0, 0.0, 5e-324, 1.0], "N": [-5.0, 0.0, 1.0, 9.0]}
     refused(InputError, lambda: compliance.linear(model, {"arm_rear": {"axial_curve": too_close}}))
     one_sided = {"mm": [0.0, 1.0, 2.0], "N": [0.0, 1.0, 1000.0]}
     refused(InputError, lambda: compliance.linear(model, {"arm_rear": {"axial_curve": one_sided}}))
-    for key in ("axial_curve", "radial_curve"):
-        curve = {"mm": [-1.0, 0.0, 1.0], "N": [-5.0, 0.0, 9.0]}
-        if key == "axial_curve":
-            compliance.elastokinematics(model, {"arm_rear": {key: curve}}, along=[0.0])
-            continue
-        with pytest.raises(InputError, match="the same to all sides"):
-            compliance.elastokinematics(model, {"arm_rear": {key: curve}}, along=[0.0])
+    curve = {"mm": [-1.0, 0.0, 1.0], "N": [-5.0, 0.0, 9.0]}
+    compliance.elastokinematics(model, {"arm_rear": {"axial_curve": curve}}, along=[0.0])
+    with refused(InputError):
+        compliance.elastokinematics(model, {"arm_rear": {"radial_curve": curve}}, along=[0.0])
     both = {"arm_rear": {"axial_N_per_mm": 1.0, "axial_curve": {"mm": [0, 1], "N": [0, 1]}}}
     refused(InputError, lambda: compliance.linear(model, both))
 
@@ -421,7 +416,7 @@ def test_two_bearings_share_a_force_as_their_bushes_do(kind, on):
 
 @pytest.mark.parametrize("subject", ["suspension", "axle", "rigid axle"])
 @pytest.mark.parametrize("what", ["bush", "tyre"])
-def test_loads_that_no_rubber_carries_are_refused(subject, what):
+def test_loads_that_no_rubber_carries_are_refused(subject, what, refused):
     """They are what a slip of the hand makes, and used to give metres without a word."""
     bushes = {"arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": 1200.0}}
     tyre = {"tyre.lateral_rate_N_per_m": 55e3} if what == "tyre" else {}
@@ -436,23 +431,19 @@ def test_loads_that_no_rubber_carries_are_refused(subject, what):
             RigidAxle.load("rigid_axle").with_changes(tyre), rods, "lateral", [most]
         ),
     }
-    words = {
-        "bush": r"bush at \w+ deflects by .* mm, more than any bush can: 100 mm|that lasts",
-        "tyre": r"the stationary tyre deflects by [\d.]+ mm, more than any tyre can: 200",
-    }
-    most = {"bush": 1e5, "tyre": 12e3}[what]
-    with pytest.raises(PositionError, match=words[what]):
-        doors[subject](most)
+    refused(PositionError, lambda: doors[subject]({"bush": 1e5, "tyre": 12e3}[what]))
     assert doors[subject](4e3).sizes["load"] == 1
 
 
-def test_wheels_that_lie_in_their_bushes_at_rest_are_refused():
+def test_wheels_that_lie_in_their_bushes_at_rest_are_refused(refused):
     of, soft = "upper_arm_front", {"axial_N_per_mm": 1.0, "radial_N_per_mm": 1.0}
     bushes = {of: soft | {"axis": [0.0, 0.0, 1.0]}}
-    with pytest.raises(PositionError, match=f"without another load the bush at {of} deflects by"):
-        compliance.elastokinematics(
+    refused(
+        PositionError,
+        lambda: compliance.elastokinematics(
             Model("double_wishbone_car"), bushes, along=[0.0], hardpoints="relaxed"
-        )
+        ),
+    )
 
 
 def _of_page(page, name):

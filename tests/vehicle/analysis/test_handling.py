@@ -106,7 +106,7 @@ def test_a_turn_fulfils_the_balance_of_forces(car):
     assert 1.0 / float(found["curvature"]) == pytest.approx(60.0, rel=1e-9)
 
 
-def test_turns_to_both_sides_are_mirror_images_and_end_at_the_friction(car):
+def test_turns_to_both_sides_are_mirror_images_and_end_at_the_friction(car, refused):
     left, right = (circle(car, speed=25.0, step=2.0, turn=side) for side in ("left", "right"))
     for name in ("steering_wheel_angle", "sideslip_angle", "roll_angle"):
         one, other = (found.curves[""][name].values for found in (left, right))
@@ -114,8 +114,10 @@ def test_turns_to_both_sides_are_mirror_images_and_end_at_the_friction(car):
     most = float(left.metrics["greatest_lateral_acceleration"])
     assert 8.0 < most < 9.81  # friction 1, and wheels that are loaded differently
     beyond = most + 0.2
-    with pytest.raises(InputError, match=r"lateral_acceleration_m_per_s2 = .*no steady turn above"):
-        run(car, "step_steer", lateral_acceleration_m_per_s2=beyond, speed_km_per_h=90.0)
+    refused(
+        InputError,
+        lambda: run(car, "step_steer", lateral_acceleration_m_per_s2=beyond, speed_km_per_h=90.0),
+    )
 
 
 @pytest.mark.parametrize("radius", [300.0, 3000.0, 30000.0])
@@ -238,10 +240,12 @@ def test_slow_steering_has_no_angle_where_turns_are_not_stable(loose, part, word
         assert any(text.startswith("slowly increasing steer: at") for text in dwell.not_valid)
 
 
-def test_slow_steering_whose_tyres_slide_needs_more_friction(car):
+def test_slow_steering_whose_tyres_slide_needs_more_friction(car, refused):
     smooth = rail_car.car(**(car.model.parameters | {"front_tyre_friction": 0.25}))
-    with pytest.raises(InputError, match=r"3\.68 m/s\^2 are needed\. .*tyres with more friction"):
-        run(smooth, "slowly_increasing_steer", largest_deg=60.0, rate_deg_per_s=30.0)
+    refused(
+        InputError,
+        lambda: run(smooth, "slowly_increasing_steer", largest_deg=60.0, rate_deg_per_s=30.0),
+    )
 
 
 def test_a_driver_passes_between_the_cones(car):
@@ -515,62 +519,61 @@ def test_a_packaged_manoeuvre_has_all_keys_with_a_comment(name):
     assert {*MANOEUVRES} >= {model.manoeuvre}
 
 
-@pytest.mark.parametrize(("name", "changes", "words"), [
-    ("step_steer", {"speed_km_per_h": 0.0}, "speed_km_per_h = 0.0 km/h is out of range"),
-    ("braking", {"turn": "left"}, "turn is not a known key"),
-    ("step_steer", {"sped": 1.0}, "sped is not a known key"),
-    ("step_steer", {"steering_wheel_deg": 10.0}, "give one of the two"),
-    ("step_steer", {"duration_s": 0.6}, "more than start_s"),
-    ("step_steer", {"output_step_ms": 1.5}, "a multiple of step_ms"),
-    ("step_steer", {"manoeuvre": "step_ster"}, "Did you mean step_steer"),
-    ("step_steer", {"manoeuvre": None}, "manoeuvre is missing"),
-    ("constant_speed_circle", {"speed_km_per_h": 0.0}, "a car that does not move is on no circle"),
-    ("circle", {"radius_m": None}, "give one of the three"),
-    ("circle", {"step_m_per_s2": 100.0}, "0.001 to 5 m/s^2 are allowed"),
-    ("circle", {"step_m_per_s2": 1e-9}, "0.001 to 5 m/s^2 are allowed"),
-    ("double_lane_change", {"lanes": {}}, "the driver has no path"),
-    ("double_lane_change", {"lanes.second.start_m": 2.0}, "where lanes.first ends"),
-    ("double_lane_change", {"lanes.second.width_of_car": 0.5}, "narrower than the car"),
-    ("path_following", {"x_m": [], "y_m": []}, "the driver has no path"),
-    ("path_following", {"x_m": [0.0]}, "equal numbers are needed"),
-    ("braking", {"pedal": 0.3}, "give one of the two"),
-    ("braking", {"deceleration_m_per_s2": None, "pedal": 1.5}, "more than 0, at most 1. Enter"),
-    ("braking", {"until_km_per_h": 120.0}, "less than speed_km_per_h"),
-    ("braking_in_turn", {"until_km_per_h": 80.0}, "less than speed_km_per_h"),
-    ("acceleration", {"until_km_per_h": 5.0}, "more than speed_km_per_h"),
-    ("sine_with_dwell", {"amplitudes_deg": [30.0, -1.0]},
-     "element 2 = -1.0 deg is out of range: allowed is more than 0 deg."),
-    ("braking", {"pedal": -1.0}, "pedal = -1.0 is out of range: allowed is more than 0, at most"),
-    ("sine_sweep", {"highest_Hz": 0.1}, "more than lowest_Hz"),
-    ("sine_sweep", {"output_step_ms": 50.0}, "20 outputs in a period"),
-])  # fmt: skip
-def test_a_mistake_in_a_manoeuvre_is_named(name, changes, words):
-    with pytest.raises(InputError, match=re.escape(words)):
-        load_manoeuvre(name, changes)
+def test_a_mistake_in_a_manoeuvre_is_named(refused):
+    for name, changes in (
+        ("step_steer", {"speed_km_per_h": 0.0}),
+        ("braking", {"turn": "left"}),
+        ("step_steer", {"sped": 1.0}),
+        ("step_steer", {"steering_wheel_deg": 10.0}),
+        ("step_steer", {"duration_s": 0.6}),
+        ("step_steer", {"output_step_ms": 1.5}),
+        ("step_steer", {"manoeuvre": "step_ster"}),
+        ("step_steer", {"manoeuvre": None}),
+        ("constant_speed_circle", {"speed_km_per_h": 0.0}),
+        ("circle", {"radius_m": None}),
+        ("circle", {"step_m_per_s2": 100.0}),
+        ("circle", {"step_m_per_s2": 1e-9}),
+        ("double_lane_change", {"lanes": {}}),
+        ("double_lane_change", {"lanes.second.start_m": 2.0}),
+        ("double_lane_change", {"lanes.second.width_of_car": 0.5}),
+        ("path_following", {"x_m": [], "y_m": []}),
+        ("path_following", {"x_m": [0.0]}),
+        ("braking", {"pedal": 0.3}),
+        ("braking", {"deceleration_m_per_s2": None, "pedal": 1.5}),
+        ("braking", {"until_km_per_h": 120.0}),
+        ("braking_in_turn", {"until_km_per_h": 80.0}),
+        ("acceleration", {"until_km_per_h": 5.0}),
+        ("sine_with_dwell", {"amplitudes_deg": [30.0, -1.0]}),
+        ("braking", {"pedal": -1.0}),
+        ("sine_sweep", {"highest_Hz": 0.1}),
+        ("sine_sweep", {"output_step_ms": 50.0}),
+    ):
+        with refused(InputError):
+            load_manoeuvre(name, changes)
 
 
-@pytest.mark.parametrize(("name", "changes", "words"), [
-    ("braking", {"deceleration_m_per_s2": 50.0}, "the brakes of this car have torque for"),
-    ("braking", {"duration_s": 1.0}, "Raise duration_s"),
-    ("braking_in_turn", {"radius_m": 20.0}, "the tyres of this car carry no steady turn above"),
-    ("coast_down", {"duration_s": 0.5}, "little or no resistance"),
-    ("acceleration", {"duration_s": 0.5}, "Raise torque_Nm"),
-    ("slowly_increasing_steer", {"largest_deg": 10.0}, "Raise speed_km_per_h"),
-    ("slowly_increasing_steer", {"rate_deg_per_s": 400.0, "output_step_ms": 200.0}, "5 outputs"),
-])  # fmt: skip
-def test_what_a_car_cannot_do_is_named(car, name, changes, words):
-    with pytest.raises(InputError, match=re.escape(words)):
-        run(car, name, **changes)
+def test_what_a_car_cannot_do_is_named(car, refused):
+    for name, changes in (
+        ("braking", {"deceleration_m_per_s2": 50.0}),
+        ("braking", {"duration_s": 1.0}),
+        ("braking_in_turn", {"radius_m": 20.0}),
+        ("coast_down", {"duration_s": 0.5}),
+        ("acceleration", {"duration_s": 0.5}),
+        ("slowly_increasing_steer", {"largest_deg": 10.0}),
+        ("slowly_increasing_steer", {"rate_deg_per_s": 400.0, "output_step_ms": 200.0}),
+    ):
+        with refused(InputError):
+            run(car, name, **changes)
 
 
-@pytest.mark.parametrize(("name", "changes", "of_car", "words"), [
-    ("double_lane_change", {"car_width_mm": 1500.0}, {}, "are 1520 mm apart"),
-    ("obstacle_avoidance", {"car_length_mm": 3000.0}, {}, "in front of its rear wheel centres"),
-    ("braking", {}, {"brakes": None}, "[brakes] is missing"),
-    ("coast_down", {}, {"front.drive": None}, "no axle is driven"),
-    ("circle", {}, {"front.side.rack.travel_per_turn_mm": None}, "ratio of the steering wheel"),
-])  # fmt: skip
-def test_a_car_is_checked_before_its_equations_are_derived(name, changes, of_car, words):
-    model = load_manoeuvre(name, changes)
-    with pytest.raises(InputError, match=re.escape(words)):
-        drive(light_car(**of_car), model)  # whose equations take half a minute
+def test_a_car_is_checked_before_its_equations_are_derived(refused):
+    for name, changes, of_car in (
+        ("double_lane_change", {"car_width_mm": 1500.0}, {}),
+        ("obstacle_avoidance", {"car_length_mm": 3000.0}, {}),
+        ("braking", {}, {"brakes": None}),
+        ("coast_down", {}, {"front.drive": None}),
+        ("circle", {}, {"front.side.rack.travel_per_turn_mm": None}),
+    ):
+        model = load_manoeuvre(name, changes)
+        with refused(InputError):
+            drive(light_car(**of_car), model)  # whose equations take half a minute

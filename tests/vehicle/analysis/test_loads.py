@@ -306,16 +306,13 @@ def test_forces_have_the_axes_of_the_tyre():
     assert torque == pytest.approx(1000.0 * 0.3, rel=0.01)
 
 
-def test_stops_carry_what_springs_do_not():
+def test_stops_carry_what_springs_do_not(refused):
     hard = {"bump_3g": {"contact_g": [0.0, 0.0, 3.0]}}
     stopped = loads.static(Model(STOPPED), hard)
     assert 0.04 < float(stopped["travel"][0]) < 0.1
     damper = stopped.sel(case="bump_3g", load="knuckle at strut_lower by damper")["force"].values
     assert np.linalg.norm(damper) > 4e3
-    with pytest.raises(
-        PositionError, match=r"spring and stops carry .* N less than the upward load"
-    ):
-        loads.static(Model(CAR), {"a": {"contact_N": [0.0, 0.0, 1e6]}})
+    refused(PositionError, lambda: loads.static(Model(CAR), {"a": {"contact_N": [0.0, 0.0, 1e6]}}))
     some = loads.static(Model(CAR), STILL | {"a": {"contact_N": [0.0, 0.0, 1e6]}})
     assert some.attrs["message"] == "1 of 2 cases have an equilibrium"
     assert "Add a [bump_stop]" in str(some["reason"].values[1])
@@ -372,7 +369,7 @@ def test_couples_are_shown_without_a_force(kintrafo, tmp_path):
 
 
 @pytest.mark.parametrize("file", ["reference_car", "reference_axle", "rigid_axle"])
-def test_totals_are_shown_alone(kintrafo, tmp_path, file):
+def test_totals_are_shown_alone(kintrafo, tmp_path, file, ends):
     arguments = ("loads", file, "--case", "static", "--part", "total")
     code, out, _ = kintrafo(*arguments, "-o", "a.csv", "--plot", "b.png", "--part", "wheel_left"
                             if "axle" in file else "wheel")  # fmt: skip
@@ -384,9 +381,7 @@ def test_totals_are_shown_alone(kintrafo, tmp_path, file):
     for row in rows:
         forces = [str(round(float(value))).replace("-0", "0") for value in row[5:8]]
         assert re.search(rf"total, {re.escape(row[3])}, .*" + ".* ".join(forces), out)
-    code, _, err = kintrafo(*arguments, "--plot", "b.png")
-    assert code == 2
-    assert "total is not a part that can be drawn" in " ".join(err.split())
+    ends(2, *arguments, "--plot", "b.png")
 
 
 def test_extremes_are_printed(kintrafo):
@@ -399,11 +394,11 @@ def test_extremes_are_printed(kintrafo):
         assert re.search(words, out), words
 
 
-def test_tables_need_all_of_it():
+def test_tables_need_all_of_it(refused):
     found = loads.static(Model(CAR), STILL)
     for wrong in (found[["force"]], loads.envelope(found)):
         for function in (loads.table, loads.envelope):
-            with pytest.raises(InputError, match="is needed, over"):
+            with refused(InputError):
                 function(wrong)
 
 
@@ -466,18 +461,15 @@ def test_files_that_are_none(kintrafo, tmp_path, text, words):
 
 
 @pytest.mark.parametrize("option", ["--part", "--case"])
-def test_options_are_named(kintrafo, option):
-    code, _, err = kintrafo("loads", "reference_car", option, "nothing")
-    assert code == 2
-    assert f"{option} 'nothing' is not known" in " ".join(err.split())
+def test_options_are_named(option, ends):
+    ends(2, "loads", "reference_car", option, "nothing")
 
 
-def test_a_file_of_cases(tmp_path):
+def test_a_file_of_cases(tmp_path, refused):
     path = tmp_path / "cases.toml"
     path.write_text("static_load_N = 4000.0\n[cases.a]\ncontact_g = [0, 0, 1]\n", encoding="utf-8")
     read = loads.read(path)
     found = loads.static(Model(CAR), read["cases"], static_load=read["static_load_N"])
     assert float(found["wheel_load"][0]) == pytest.approx(4000.0, rel=1e-12)
     path.write_text("[case.a]\n", encoding="utf-8")
-    with pytest.raises(InputError, match="Did you mean cases"):
-        loads.read(path)
+    refused(InputError, lambda: loads.read(path))

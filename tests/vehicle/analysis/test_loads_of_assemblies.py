@@ -158,92 +158,68 @@ def test_the_mirror_image_of_a_case_is_carried_alike(subject):
 
 # -- errors ---------------------------------------------------------------------------------------
 
-# Of every assembly, of those with two wheels, and of one of them.
 WRONG = [
-    *(
-        (name, cases, words)
-        for name in SHORT
-        for cases, words in (
-            ({}, "one or more are needed"),
-            (3, "a dict of names and load cases is needed"),
-            ({"a": 3}, "must be a section"),
-            ({"a b": {"contact_N": [0, 0, 1]}}, "a name is a text of letters"),
-            ({"../a": {"contact_g": [0, 0, 1]}}, "a name is a text of letters"),
-            ({1: {"contact_g": [0, 0, 1]}, "1": {"contact_g": [0, 0, 1]}}, "text of letters"),
-            ({"a": {"contact": [0, 0, 1]}}, "Did you mean contact_"),
-            ({"a": {"contact_N": [0, 1]}}, "three numbers are needed"),
-            ({"a": {"contact_N": [0, np.nan, 1]}}, "a finite number is needed"),
-            ({"a": {"contact_N": [0, 0, -1]}}, "a road only pushes"),
-            ({"a": {"contact_N": [0, 0, 1e12]}}, "each below 1e"),
-            ({"a": {"contact_N": [0, 0, 1], "travel_mm": 3.0}}, "cannot be given besides"),
-            ({"a": {"travel_mm": "far"}}, "travel_mm = 'far'"),
-        )
-    ),
-    *(
-        (name, {"a": case}, words)
-        for name in ("axle", "rigid")
-        for case, words in (
-            ({"left": 3}, r"\[cases.a\] left must be a section"),
-            ({"contact_N": [0, 0, 1], "left": {"contact_N": [0, 0, 1]}}, "that of both wheels"),
-            ({"left": {"contact_K": [0, 0, 1]}}, r"\[cases.a.left\] contact_K is not known"),
-            ({"rigth": {"contact_N": [0, 0, 1]}}, r"\[cases.a\] rigth is not known.*right\?"),
-            ({"travel_mm": 1.0, "left": {"contact_N": [0, 0, 1]}}, "cannot be given besides"),
-        )
-    ),
-    ("corner", {"a": {"left": {"contact_N": [0, 0, 1]}}}, "left is not known"),
-    ("axle", {"a": {"left": {"rack_mm": 3.0}}}, "one rack"),
-    (
-        "rigid",
-        {"a": {"rack_mm": 3.0}},
-        r"\[cases.a\] rack_mm: its wheels are not steered. Leave it out",
-    ),
-    ("rigid", {"a": {"left": {"rack_mm": 3.0}}}, "its wheels are not steered"),
+    {},
+    3,
+    {"a": 3},
+    {"a b": {"contact_N": [0, 0, 1]}},
+    {"../a": {"contact_g": [0, 0, 1]}},
+    {1: {"contact_g": [0, 0, 1]}, "1": {"contact_g": [0, 0, 1]}},
+    {"a": {"contact": [0, 0, 1]}},
+    {"a": {"contact_N": [0, 1]}},
+    {"a": {"contact_N": [0, np.nan, 1]}},
+    {"a": {"contact_N": [0, 0, -1]}},
+    {"a": {"contact_N": [0, 0, 1e12]}},
+    {"a": {"contact_N": [0, 0, 1], "travel_mm": 3.0}},
+    {"a": {"travel_mm": "far"}},
 ]
-FAR = {"travel_mm": 900.0}
-BEYOND = [
-    ("corner", FAR, "wheel height 1200 mm is out of reach"),
-    ("corner", {"rack_mm": 900.0}, "the rack cannot be at 900 mm"),
-    ("axle", {"left": FAR}, "left: wheel height 1200 mm is out of reach"),
-    ("axle", {"rack_mm": 900.0}, "the rack cannot be at 900 mm"),
-    ("rigid", FAR, "the axle cannot have its left wheel at"),
-    ("rigid", {"travel_mm": 1e8}, "the axle cannot have its left wheel at"),
-    ("level", {"center_N": [0.0, 0.0, -90e3]}, "at the end of its reach"),
-    *(
-        (name, {"contact_N": [0.0, 0.0, 9e5]}, "N less than the upward load")
-        for name in SHORT
-    ),
-    ("corner", {"travel_mm": 0.0, "center_N": [0, 0, 9e3]}, "the road would have to pull"),
-    *(
-        (name, {"travel_mm": 0.0, "right": {"center_N": [0, 0, 9e3]}},
-         "right: the road would have to pull the wheel there")
-        for name in ("axle", "rigid")
-    ),
-]  # fmt: skip
+WRONG_OF_SIDES = [
+    {"left": 3},
+    {"contact_N": [0, 0, 1], "left": {"contact_N": [0, 0, 1]}},
+    {"left": {"contact_K": [0, 0, 1]}},
+    {"rigth": {"contact_N": [0, 0, 1]}},
+    {"travel_mm": 1.0, "left": {"contact_N": [0, 0, 1]}},
+    {"left": {"rack_mm": 3.0}},
+]
+WRONG_OF = {
+    "corner": [{"left": {"contact_N": [0, 0, 1]}}],
+    "axle": WRONG_OF_SIDES,
+    "rigid": [*WRONG_OF_SIDES, {"rack_mm": 3.0}],
+}
 
 
-@pytest.mark.parametrize(("name", "cases", "words"), WRONG)
-def test_cases_that_cannot_be_used(name, cases, words):
-    with pytest.raises(InputError, match=words):
-        loads.static(SHORT[name], cases, static_load=6000.0)
+@pytest.mark.parametrize("name", SHORT)
+def test_cases_that_cannot_be_used(name, refused):
+    for cases in [*WRONG, *({"a": case} for case in WRONG_OF[name])]:
+        with refused(InputError):
+            loads.static(SHORT[name], cases, static_load=6000.0)
+
+
+FAR, RIGHT_UP = {"travel_mm": 900.0}, {"travel_mm": 0.0, "right": {"center_N": [0, 0, 9e3]}}
+HEAVY = {"contact_N": [0.0, 0.0, 9e5]}
+BEYOND = {
+    "corner": [FAR, {"rack_mm": 900.0}, HEAVY, {"travel_mm": 0.0, "center_N": [0, 0, 9e3]}],
+    "axle": [{"left": FAR}, {"rack_mm": 900.0}, HEAVY, RIGHT_UP],
+    "rigid": [FAR, {"travel_mm": 1e8}, HEAVY, RIGHT_UP],
+    "level": [{"center_N": [0.0, 0.0, -90e3]}],
+}
 
 
 LEVEL = {"level": next(iter(RIGID.values()))}
 
 
-@pytest.mark.parametrize(("name", "case", "words"), BEYOND)
-def test_a_case_that_is_not_carried_ends_no_other(name, case, words):
-    with pytest.raises(
-        PositionError, match=rf"none of the cases has an equilibrium\s+- a: .*{words}"
-    ):
-        loads.static((SHORT | LEVEL)[name], {"a": case})
-    found = loads.static(
-        (SHORT | LEVEL)[name], {"still": {"contact_g": [0.0, 0.0, 1.0]}, "a": case}
-    )
-    assert str(found["reason"].sel(case="still").values) == ""
-    assert words in str(found["reason"].sel(case="a").values)
-    assert found.attrs["message"] == "1 of 2 cases have an equilibrium"
-    lost = found.sel(case="a").drop_vars(["reason", "total_by"])
-    assert not any(np.isfinite(lost[key]).any() for key in lost if "case" in found[key].dims)
+@pytest.mark.parametrize("name", BEYOND)
+def test_a_case_that_is_not_carried_ends_no_other(name, refused):
+    subject = (SHORT | LEVEL)[name]
+    for case in BEYOND[name]:
+        with refused(PositionError) as caught:
+            loads.static(subject, {"a": case})
+        found = loads.static(subject, {"still": {"contact_g": [0.0, 0.0, 1.0]}, "a": case})
+        assert str(found["reason"].sel(case="still").values) == ""
+        assert str(found["reason"].sel(case="a").values) in str(caught.value)
+        assert found.attrs["message"] == "1 of 2 cases have an equilibrium"
+        lost = found.sel(case="a").drop_vars(["reason", "total_by"])
+        assert not any(np.isfinite(lost[key]).any() for key in lost if "case" in found[key].dims)
 
 
 # An axle whose engine is on the body, and one that carries it; the torque held elsewhere.
@@ -275,24 +251,22 @@ def test_usual_cases_of_an_axle_act_where_its_file_holds_the_torque(axle, drive,
 
 
 @pytest.mark.parametrize("subject", SHORT.values(), ids=SHORT)
-def test_arguments_that_cannot_be_used(subject):
+def test_arguments_that_cannot_be_used(subject, refused):
     for load in (0.0, -3.0, np.inf, "much"):
-        with pytest.raises(InputError, match="static_load"):
+        with refused(InputError):
             loads.static(subject, static_load=load)
     for function in (loads.static, loads.standard_cases):
-        with pytest.raises(InputError, match="a RigidAxle is needed"):
+        with refused(InputError):
             function("rigid_axle")
-    with pytest.raises(InputError, match="RigidAxleModel or CarModel is needed"):
-        loads.along(Suspension.load("reference_car"), 3)
+    refused(InputError, lambda: loads.along(Suspension.load("reference_car"), 3))
 
 
-def test_dead_points_are_named(monkeypatch):
+def test_dead_points_are_named(monkeypatch, refused):
     """As if all equations were at one."""
     monkeypatch.setattr("kintrafo.vehicle.analysis.loads.balance._WORST_CONDITION", 1.0)
-    for name, subject in SHORT.items():
+    for subject in SHORT.values():
         for case in ({"contact_N": [0.0, 0.0, 6000.0]}, {"travel_mm": 0.0}):
-            where = "left and right: " if name == "axle" else ""
-            with pytest.raises(PositionError, match=f"a: {where}the linkage is at a dead point"):
+            with refused(PositionError):
                 loads.static(subject, {"a": case})
 
 
@@ -306,13 +280,12 @@ OTHERS = {
 
 
 @pytest.mark.parametrize(("name", "other"), OTHERS.values(), ids=OTHERS)
-def test_a_motion_of_another_is_refused(name, other):
+def test_a_motion_of_another_is_refused(name, other, refused):
     model, another = (
         of if isinstance(of, Model) else kintrafo.model_of(of) for of in (SHORT[name], other)
     )
     motion = kintrafo.simulate(model, (0.0, 0.01), kintrafo.equilibrium(model))
-    with pytest.raises(InputError, match="not a motion of this model"):
-        loads.along(another, motion)
+    refused(InputError, lambda: loads.along(another, motion))
 
 
 @pytest.mark.parametrize(

@@ -81,13 +81,14 @@ def test_the_work_of_a_turn_is_that_of_the_friction(found):
     assert np.all(without.moments(steer, loop["fz"].values) == 0.0)
 
 
-@pytest.mark.parametrize(("changes", "words"), [
-    ({"step_deg": 200.0}, "0.24 to 60 deg are allowed"),
-    ({"step_deg": 1e-3}, "0.24 to 60 deg are allowed"),
-    ({"pressure_kPa": 2.3}, "pressure_kPa = 2.3 kPa is out of range"),
-    ({"friction": 80.0}, "friction = 80.0 is out of range"),
-    ({"largest_deg": 2000.0, "step_deg": 500.0}, "the car has no equilibrium"),
-])  # fmt: skip
-def test_mistakes_are_named(car, changes, words):
-    with pytest.raises(kintrafo.InputError, match=words):
-        drive(car, "parking", CHANGES | changes)
+def test_mistakes_are_named(car, refused):
+    for changes in (
+        {"step_deg": 200.0},
+        {"step_deg": 1e-3},
+        {"pressure_kPa": 2.3},
+        {"friction": 80.0},
+    ):
+        with refused(kintrafo.InputError):
+            drive(car, "parking", CHANGES | changes)
+    with pytest.raises(kintrafo.InputError, match=r"-2000\.0 deg"):
+        drive(car, "parking", CHANGES | {"largest_deg": 2000.0, "step_deg": 500.0})

@@ -190,9 +190,8 @@ def test_upward_is_the_second_derivative_of_the_height():
     assert upward(motion, place)[0] == pytest.approx(difference, abs=1e-5)
 
 
-def test_a_held_body_does_not_ride():
-    with pytest.raises(kintrafo.InputError, match="axle alone is held"):
-        kintrafo.ride.modes(kintrafo.load("reference_axle"))
+def test_a_held_body_does_not_ride(refused):
+    refused(kintrafo.InputError, lambda: kintrafo.ride.modes(kintrafo.load("reference_axle")))
 
 
 # -- four wheels ----------------------------------------------------------------------------------
@@ -266,7 +265,7 @@ def test_equal_axles_have_as_many_modes_as_names(whole):
     np.testing.assert_allclose(found, wanted, rtol=1e-9)
 
 
-def test_numbers_over_speed_are_those_of_the_spectra(whole):
+def test_numbers_over_speed_are_those_of_the_spectra(whole, refused):
     numbers = kintrafo.ride.by_speed(whole, [15.0, 30.0], "C", seat="driver")
     spectra = kintrafo.ride.response(whole, 30.0, "C")
     driver = spectra["driver_acceleration_psd"].attrs
@@ -279,8 +278,7 @@ def test_numbers_over_speed_are_those_of_the_spectra(whole):
     modes = kintrafo.ride.modes(whole)
     for name, each in modes.groupby("mode"):
         assert float(numbers[f"{name}_frequency"][0]) == float(each["frequency"].item())
-    with pytest.raises(kintrafo.InputError, match="more than 0 m/s"):
-        kintrafo.ride.by_speed(whole, [0.0])
+    refused(kintrafo.InputError, lambda: kintrafo.ride.by_speed(whole, [0.0]))
     with pytest.raises(kintrafo.InputError, match="driver"):
         kintrafo.ride.by_speed(whole, [10.0], seat="drivr")
 

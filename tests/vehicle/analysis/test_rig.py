@@ -137,7 +137,7 @@ def test_cells_of_spreadsheets(tmp_path):
     assert float(found["wheel_travel"]) == pytest.approx(0.005, abs=1e-6)
 
 
-def test_differences_are_where_both_are_known(tmp_path):
+def test_differences_are_where_both_are_known(tmp_path, refused):
     path = tmp_path / "a.csv"
     path.write_text("wheel_travel [mm],toe [deg],camber [deg]\n40,,1\n0,,\n0,2,\n", "utf-8")
     both = rig.beside(rig.measured_curves(path), {"car": MODEL})
@@ -145,11 +145,10 @@ def test_differences_are_where_both_are_known(tmp_path):
     assert np.rad2deg(toe.first) == pytest.approx(2.0)
     assert np.isnan([camber.first, camber.at_design]).all()
     assert camber.where == pytest.approx(0.04)
-    with pytest.raises(InputError, match="that of a subject"):
-        rig.beside(rig.measured_curves(path), {"measured": MODEL})
+    refused(InputError, lambda: rig.beside(rig.measured_curves(path), {"measured": MODEL}))
 
 
-def test_curves_of_another_assembly(tmp_path):
+def test_curves_of_another_assembly(tmp_path, refused):
     """A curve that is not computed keeps its values; without any other one, it is refused."""
     path = tmp_path / "rig.csv"
     text = "wheel_travel [mm],toe [deg],toe_left [deg]\n-40,0.1,0.3\n0,0,0.2\n40,-0.1,0.1\n"
@@ -158,8 +157,7 @@ def test_curves_of_another_assembly(tmp_path):
     assert (found.name, found.where) == ("toe_left", 0.0)
     assert found.first == pytest.approx(np.deg2rad(0.2), rel=1e-15)
     assert np.isnan([found.other, found.largest]).all()
-    with pytest.raises(InputError, match="axle has no characteristic of the measured ones: toe"):
-        rig.beside(rig.measured_curves(path)[["toe"]], {"axle": AXLE})
+    refused(InputError, lambda: rig.beside(rig.measured_curves(path)[["toe"]], {"axle": AXLE}))
 
 
 def test_points_with_gaps_are_drawn():
@@ -167,14 +165,13 @@ def test_points_with_gaps_are_drawn():
     assert _alone(values).tolist() == [True, False, False, False, False, True]
 
 
-def test_positions_out_of_reach(tmp_path):
+def test_positions_out_of_reach(tmp_path, refused):
     path = tmp_path / "a.csv"
     path.write_text("wheel_travel [mm],toe [deg]\n0,0\n2000,1\n", encoding="utf-8")
-    with pytest.raises(PositionError, match="out of reach"):
-        rig.beside(rig.measured_curves(path), {"car": MODEL})
+    refused(PositionError, lambda: rig.beside(rig.measured_curves(path), {"car": MODEL}))
 
 
-def test_the_command(kintrafo, loop, tmp_path):
+def test_the_command(kintrafo, loop, tmp_path, ends):
     code, out, err = kintrafo(
         "compare", "reference_car", loop.name, "--plot", "a.png", "-o", "a.csv"
     )
@@ -182,11 +179,8 @@ def test_the_command(kintrafo, loop, tmp_path):
     assert "reference_car compared with rig.csv" in " ".join(out.split())
     assert "columns that were not read: remark [-]" in out
     assert {path.name for path in tmp_path.iterdir()} == {"rig.csv", "a.png", "a.csv"}
-    code, _, err = kintrafo("compare", "reference_car", loop.name, "--over", "rack")
-    assert (code, "are not over that" in " ".join(err.split())) == (2, True)
-    code, _, err = kintrafo("compare", loop.name, loop.name)
-    assert code == 2
-    assert "one file of measured curves" in " ".join(err.split())
+    ends(2, "compare", "reference_car", loop.name, "--over", "rack")
+    ends(2, "compare", loop.name, loop.name)
 
 
 def test_units_may_have_brackets_of_their_own(tmp_path):
@@ -308,7 +302,7 @@ def test_compliance_that_there_is_not(models, changes, refused):
     refused(InputError, lambda: compare.compare(models, **changes))
 
 
-def test_an_axle_of_two_corners_is_compared_with_a_rigid_one():
+def test_an_axle_of_two_corners_is_compared_with_a_rigid_one(refused):
     """Common characteristics are compared; a suspension has no motion in common with them."""
     found = compare.compare({"two corners": AXLE, "rigid": RIGID_AXLE}, over="roll")
     assert {"camber", "roll_stiffness", "roll_center_height"} <= {*found}
@@ -317,15 +311,13 @@ def test_an_axle_of_two_corners_is_compared_with_a_rigid_one():
     for label, axle in (("two corners", AXLE), ("rigid", RIGID_AXLE)):
         alone = characteristics.over(axle, "roll", found["roll_angle"])
         np.testing.assert_array_equal(found["camber"].sel(data_set=label), alone["camber"])
-    with pytest.raises(InputError, match="suspensions are not compared with axles"):
-        compare.compare({"a": MODEL, "b": AXLE})
+    refused(InputError, lambda: compare.compare({"a": MODEL, "b": AXLE}))
 
 
-def test_curves_over_what_nothing_has_are_refused(tmp_path):
+def test_curves_over_what_nothing_has_are_refused(tmp_path, refused):
     path = tmp_path / "rig.csv"
     path.write_text("roll_angle [deg],toe_left [deg]\n-1,0.1\n1,0.2\n", encoding="utf-8")
-    with pytest.raises(InputError, match="over roll_angle, which a does not have; there is wheel"):
-        rig.beside(rig.measured_curves(path), {"a": MODEL})
+    refused(InputError, lambda: rig.beside(rig.measured_curves(path), {"a": MODEL}))
 
 
 @pytest.mark.parametrize(
@@ -337,17 +329,13 @@ def test_curves_over_what_nothing_has_are_refused(tmp_path):
         lambda names: rig.beside(xr.Dataset(), dict.fromkeys(names, MODEL)),
     ],
 )
-def test_names_of_data_sets_differ_as_texts(door):
-    for names, words in (
-        (("1", 1), "has the labels '1' and 1"),
-        (("a", "a\0"), r"has the labels 'a' and 'a\\x00'"),
-        ((1, 2), r"name in subjects = 1: a text is needed"),
-    ):
-        with pytest.raises(InputError, match=words):
+def test_names_of_data_sets_differ_as_texts(door, refused):
+    for names in (("1", 1), ("a", "a\0"), (1, 2)):
+        with refused(InputError):
             door(names)
 
 
-def test_compliance_by_the_command(kintrafo, tmp_path):
+def test_compliance_by_the_command(kintrafo, tmp_path, ends):
     SOFT.save(tmp_path / "a.toml")
     SOFTER.save(tmp_path / "b.toml")
     (tmp_path / "rig.csv").write_text(
@@ -360,7 +348,5 @@ def test_compliance_by_the_command(kintrafo, tmp_path):
             code, told[files, held], err = kintrafo(*line.split())
             assert code == 0, err
         assert told[files, "height"] != told[files, "locked"]
-    code, _, err = kintrafo("compare", "reference_car", "a.toml", "--held", "height")
-    assert (code, "has no [bushings]" in err) == (2, True)
-    code, _, err = kintrafo("compare", "reference_axle", "reference_axle", "--held", "height")
-    assert (code, "has no [bushings]" in " ".join(err.split())) == (2, True)
+    ends(2, "compare", "reference_car", "a.toml", "--held", "height")
+    ends(2, "compare", "reference_axle", "reference_axle", "--held", "height")

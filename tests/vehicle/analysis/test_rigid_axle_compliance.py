@@ -416,7 +416,7 @@ def test_large_loads_move_it_as_a_beam_on_springs(kind, under, wheels, held, loa
 # -- files, commands and errors -------------------------------------------------------------------
 
 
-def test_five_rods_move_only_as_their_bushes_give_way():
+def test_five_rods_move_only_as_their_bushes_give_way(refused):
     """Softer in heave with softer bushes; all else than bushes is refused by name."""
     rates = []
     for times in (1.0, 10.0):
@@ -425,21 +425,19 @@ def test_five_rods_move_only_as_their_bushes_give_way():
         rates.append(float(found["roll_stiffness_at_contacts"][0, 0]))
     # in roll the fifth rod strains the others
     assert rates[1] > 1.02 * rates[0]
-    for refused in (
+    radial = {"radial_N_per_mm": 900.0}
+    refused(
+        InputError,
         lambda: flat(characteristics.over(FIVE, "bump")),
         lambda: loads.static(FIVE),
         lambda: checkup(FIVE),
         lambda: RigidAxleModel(FIVE),
         lambda: sheet(FIVE),
-    ):
-        with pytest.raises(InputError, match="an axle on five rods heaves and rolls only as"):
-            refused()
-    with pytest.raises(InputError, match="one or more must deflect along itself"):
-        FIVE.with_changes({"bushings": {"upper_link_axle": {"radial_N_per_mm": 900.0}}})
-    hinged = {"radial_N_per_mm": 900.0, "axis": [0.0, 1.0, 0.0]}
+        lambda: FIVE.with_changes({"bushings": {"upper_link_axle": radial}}),
+        lambda: FIVE.with_changes({"bushings": None}),
+    )
+    hinged = radial | {"axis": [0.0, 1.0, 0.0]}
     FIVE.with_changes({"bushings": {"upper_link_axle": hinged}})
-    with pytest.raises(InputError, match="takes all five"):
-        FIVE.with_changes({"bushings": None})
 
 
 WRONG = [
@@ -457,14 +455,13 @@ def test_bushes_that_cannot_be_are_refused_by_name(bushes, refused):
     refused(InputError, lambda: compliance.linear(AXLE, bushes, [0.0]))
 
 
-def test_what_else_cannot_be():
+def test_what_else_cannot_be(refused):
     soft = {"panhard_rod_axle": {"axial_N_per_mm": 900.0}}
     with pytest.raises(PositionError):
         compliance.linear(AXLE, soft, [0.9])
     weak = AXLE.with_changes({"spring.rate_N_per_m": 0.0, "spring.force_at_design_N": None,
                               "spring.free_length_mm": 300.0})  # fmt: skip
-    with pytest.raises(InputError, match="the springs do not hold the axle"):
-        compliance.linear(weak, soft, [0.0])
+    refused(InputError, lambda: compliance.linear(weak, soft, [0.0]))
     with pytest.raises(InputError, match=r"bushings.*panhard"):
         AXLE.with_changes({"bushings": {"panhard_rod": {"axial_N_per_mm": 900.0}}})
 
@@ -480,7 +477,7 @@ def test_the_page_has_what_the_command_prints():
     assert set(printed) <= rows
 
 
-def test_a_file_has_its_bushes(kintrafo, tmp_path):
+def test_a_file_has_its_bushes(kintrafo, tmp_path, as_stored):
     """In the tables, the sheet and the report, as those that are given in their place."""
     soft = {"panhard_rod_axle": {"radial_N_per_mm": 900.0, "axis": [1.0, 0.0, 0.0]}}
     own = AXLE.with_changes({"bushings": soft})
@@ -508,4 +505,4 @@ def test_a_file_has_its_bushes(kintrafo, tmp_path):
     for options in (["compliance", "--rack", "5"], ["compliance", "--nonlinear", "--at", "5"]):
         code, _, err = kintrafo(options[0], *soft, *options[1:])
         assert code != 0
-        assert "only for" in err
+        as_stored(" ".join(err.split()))

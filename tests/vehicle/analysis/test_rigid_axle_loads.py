@@ -237,30 +237,26 @@ def test_no_spring_is_turned_upside_down():
     assert (loads.static(STOPPED, static_load=6350.0)["reason"] == "").all()
 
 
-def test_a_motion_through_a_dead_point_is_refused(monkeypatch):
+def test_a_motion_through_a_dead_point_is_refused(monkeypatch, refused):
     motion = simulate(MODEL, (0.0, 0.01), equilibrium(MODEL))
     monkeypatch.setattr("kintrafo.vehicle.analysis.loads.balance._WORST_CONDITION", 1.0)
-    with pytest.raises(PositionError, match=r"at a wheel height of .* mm and .* mm: the linkage"):
-        loads.along(MODEL, motion)
+    refused(PositionError, lambda: loads.along(MODEL, motion))
 
 
-def test_what_the_wheels_need_is_named():
+def test_what_the_wheels_need_is_named(refused):
     low = {"hardpoints.wheel_center.z": 50.0, "tyre.free_height_mm": 77.6}
-    with pytest.raises(InputError, match=r"\[tyre\] radius_mm is needed"):
-        loads.static(AXLE.with_changes(low))
+    refused(InputError, lambda: loads.static(AXLE.with_changes(low)))
     soft = AXLE.with_changes({"tyre.rate_N_per_m": 0.0, "spring.rate_N_per_m": 1.0})
-    with pytest.raises(InputError, match=r"static_load is needed, \[N\]: no stable rest"):
-        loads.static(soft)
+    refused(InputError, lambda: loads.static(soft))
 
 
 @pytest.mark.parametrize(
     "name", ["chassis", "beam", "wheel_left", "spring", "damper_right", "bar", "gravity", "road"]
 )
-def test_a_rod_is_not_called_like_another_part(name):
+def test_a_rod_is_not_called_like_another_part(name, refused):
     data = AXLE.to_dict()
     data["rods"][name] = data["rods"].pop("upper_link")
-    with pytest.raises(InputError, match=rf"\[rods\] '{name}' is the name of another part"):
-        RigidAxle.from_dict(data)
+    refused(InputError, lambda: RigidAxle.from_dict(data))
 
 
 # -- tables, pictures and commands ----------------------------------------------------------------

@@ -119,12 +119,13 @@ def test_a_car_that_rolls_back_returns_over_its_road():
         assert np.abs(heights - track(places)).max() < 1e-4
 
 
-def test_a_road_is_refused_where_nothing_is_simulated(model):
+def test_a_road_is_refused_where_nothing_is_simulated(model, refused):
     road = road_profiles.bump(0.03, 1.0)
-    with pytest.raises(InputError, match="road: steady-state circle is not simulated"):
-        drive(model, "circle", road=road)
-    with pytest.raises(InputError, match=r"road_profiles\.Road is needed"):
-        drive(model, "straight", road="C")
+    refused(
+        InputError,
+        lambda: drive(model, "circle", road=road),
+        lambda: drive(model, "straight", road="C"),
+    )
 
 
 @pytest.mark.parametrize(("grade", "crossfall"), [(0.08, 0.0), (-0.03, 0.05)])
@@ -168,24 +169,23 @@ def test_a_car_climbs_until_its_driven_wheels_slide(model):
     radius = model.car.tyre("front_left").evaluate(load).loaded_radius
     assert float(found.metrics["drive_torque"]) == pytest.approx(weight * near * radius, rel=0.01)
     assert np.ptp(found.curves[""]["speed"].values) < 1e-3
-    with pytest.raises(InputError, match=r"straight ahead up to about .* % uphill") as refused:
+    with pytest.raises(InputError) as refused:
         drive(model, "straight", changes, grade=1.05 * steepest)
     (named,) = re.findall(r"about ([\d.]+) %", str(refused.value))
     # found to 1 % of the slope; the slipping tyres approach their friction
     assert float(named) == pytest.approx(100.0 * steepest, rel=0.03)
 
 
-def test_a_slope_that_is_level_in_words_is_not_named(model, monkeypatch):
+def test_a_slope_that_is_level_in_words_is_not_named(model, monkeypatch, refused):
     def begin(turns, _acceleration):
         turns.slope = Slope(0.0004)
         raise NoSteadyMotionError("")
 
     monkeypatch.setattr(Turns, "begin", begin)
-    with pytest.raises(InputError, match=r"at this speed\. Choose a lower one\.$"):
-        drive(model, "straight", grade=0.03)
+    refused(InputError, lambda: drive(model, "straight", grade=0.03))
 
 
-def test_a_deceleration_is_that_of_brakes_and_grade(model):
+def test_a_deceleration_is_that_of_brakes_and_grade(model, refused):
     """The weight along the grade has 1 m/s^2 of 6: without it the difference would be 2 m/s^2."""
     changes = {"speed_km_per_h": 40.0, "deceleration_m_per_s2": 6.0}
     up, down = (
@@ -193,42 +193,43 @@ def test_a_deceleration_is_that_of_brakes_and_grade(model):
         for one in (0.1, -0.1)
     )
     assert up == pytest.approx(down, abs=0.05)
-    with pytest.raises(InputError, match=r"the grade alone has 0\.98 m/s\^2"):
-        drive(model, "braking", changes | {"deceleration_m_per_s2": 0.9}, grade=0.1)
+    refused(
+        InputError,
+        lambda: drive(model, "braking", changes | {"deceleration_m_per_s2": 0.9}, grade=0.1),
+    )
 
 
-@pytest.mark.parametrize(
-    ("grade", "changes", "words"),
-    [
-        (0.2, {"until_km_per_h": 95.0}, "Choose a lower speed"),
-        (-0.1, {"duration_s": 0.5}, "downhill"),
-    ],
-)
-def test_a_coast_down_without_a_result_is_refused(model, grade, changes, words):
-    with pytest.raises(InputError, match=words):
-        drive(model, "coast_down", changes, grade=grade)
+def test_a_coast_down_without_a_result_is_refused(model, refused):
+    for grade, changes in ((0.2, {"until_km_per_h": 95.0}), (-0.1, {"duration_s": 0.5})):
+        with refused(InputError):
+            drive(model, "coast_down", changes, grade=grade)
 
 
-def test_advice_about_a_simulation_names_no_argument_that_a_manoeuvre_lacks(model, monkeypatch):
+def test_advice_about_a_simulation_names_no_argument_that_a_manoeuvre_lacks(
+    model, monkeypatch, refused
+):
     """A stepper with fewer steps than it needs has the error of a motion that is too fast."""
     monkeypatch.setattr(stepper, "_MOST_STEPS", 1)
     with pytest.raises(SimulationError, match="more than 1 steps") as caught:
         drive(model, "straight", {"duration_s": 0.1}, road=road_profiles.bump(0.03, 0.01, at=0.0))
     assert "Choose a lower speed" in str(caught.value)
     assert "max_steps" not in str(caught.value)
-    with pytest.raises(SimulationError, match=r"Give a shorter step, or loosen rtol\.$"):
-        stepper.Stepper(model, 0.1, method="DormandPrince").step()  # falls from design
+    refused(
+        SimulationError, lambda: stepper.Stepper(model, 0.1, method="DormandPrince").step()
+    )  # falls from design
 
 
-def test_a_model_on_a_slope_is_refused_where_a_car_rests():
-    with pytest.raises(InputError, match="a car does not rest on a slope"):
-        drive(CarModel(light_car(), slope=Slope(0.05)), "straight")
-    with pytest.raises(InputError, match="grade = nan"):
-        CarModel(light_car(), slope=Slope(np.nan))
+def test_a_model_on_a_slope_is_refused_where_a_car_rests(refused):
+    refused(
+        InputError,
+        lambda: drive(CarModel(light_car(), slope=Slope(0.05)), "straight"),
+        lambda: CarModel(light_car(), slope=Slope(np.nan)),
+    )
 
 
-def test_a_slope_is_refused_where_turns_are_steady(model):
-    with pytest.raises(InputError, match=r"step steer is for a level road.*straight"):
-        drive(model, "step_steer", grade=0.05)
-    with pytest.raises(InputError, match="grade = 8"):
-        drive(model, "straight", grade=8.0)
+def test_a_slope_is_refused_where_turns_are_steady(model, refused):
+    refused(
+        InputError,
+        lambda: drive(model, "step_steer", grade=0.05),
+        lambda: drive(model, "straight", grade=8.0),
+    )

@@ -24,13 +24,12 @@ def table(tmp_path, text):
     return path
 
 
-def test_step_jumps_once():
+def test_step_jumps_once(refused):
     times, heights = step(0.02, at=0.25, end=1.0)
     assert times.tolist() == [0.0, 0.25, 0.25, 1.0]
     assert heights.tolist() == [0.0, 0.0, 0.02, 0.02]
     assert step(0.02, at=0.0, end=1.0) == 0.02
-    with pytest.raises(InputError, match="ends at 1 s"):
-        step(0.02, at=1.0, end=1.0)
+    refused(InputError, lambda: step(0.02, at=1.0, end=1.0))
 
 
 def test_sine_has_amplitude_and_frequency():
@@ -54,12 +53,11 @@ def test_a_sine_ends_where_it_was_made_to():
         assert simulate(MODEL, (0.0, 2.0), equilibrium(MODEL), **options).success
 
 
-def test_a_sine_too_long_or_too_short_to_tabulate_is_refused():
+def test_a_sine_too_long_or_too_short_to_tabulate_is_refused(refused):
     for frequency in (0.0, -1.0, 1e6):
-        with pytest.raises(InputError, match="at most 500 Hz"):
+        with refused(InputError):
             sine(0.01, frequency, end=10.0)
-    with pytest.raises(InputError, match="end = 1e-300 s: a finite number of 1e-09 s or more"):
-        sine(0.01, 1.0, end=1e-300)
+    refused(InputError, lambda: sine(0.01, 1.0, end=1e-300))
 
 
 def test_a_slow_sine_carries_the_suspension_along():
@@ -150,9 +148,11 @@ def test_names_and_units_are_those_of_every_table(tmp_path, text):
     assert found.left_out == ("Remark",)
 
 
-def test_a_speed_without_a_distance_is_refused(tmp_path):
-    with pytest.raises(InputError, match="Leave it out"):
-        measured(table(tmp_path, "time_s,road_height_mm\n0,0\n1,1\n"), speed=10.0)
+def test_a_speed_without_a_distance_is_refused(tmp_path, refused):
+    refused(
+        InputError,
+        lambda: measured(table(tmp_path, "time_s,road_height_mm\n0,0\n1,1\n"), speed=10.0),
+    )
 
 
 def test_many_wrong_lines_are_not_all_listed(tmp_path):
@@ -171,11 +171,10 @@ def test_not_text(tmp_path, refused):
 # -- excitation, times and grids ------------------------------------------------------------------
 
 
-def test_an_input_is_given_once(tmp_path):
+def test_an_input_is_given_once(tmp_path, refused):
     road = measured(table(tmp_path, "time_s,road_height_mm\n0,0\n1,1\n"))
     profiles = {"road_height": TimeProfile(step=0.01), "rack_position": TimeProfile(held=0.02)}
-    with pytest.raises(InputError, match="2 ways: step, measured"):
-        excitation(profiles, 1.0, road)
+    refused(InputError, lambda: excitation(profiles, 1.0, road))
     assert excitation({"rack_position": TimeProfile(held=0.02)}, 1.0, road)["rack_position"] == 0.02
 
 

@@ -84,13 +84,11 @@ def test_a_table_has_both_wheels_side_by_side():
     assert len({row[0] for row in every}) == len(every)
 
 
-def test_what_cannot_be_is_refused_by_name():
-    with pytest.raises(InputError, match=r"subject = .*Suspension or Model, an Axle"):
-        sheet("reference_car")
+def test_what_cannot_be_is_refused_by_name(refused):
+    refused(InputError, lambda: sheet("reference_car"))
     with pytest.raises(InputError, match="held"):
         sheet(Model("reference_car"), held="tight")
-    with pytest.raises(InputError, match=r"\[bushings.arm_rear\] 'arm_rear' is not known"):
-        sheet(RigidAxle.load("rigid_axle"), BUSHES)
+    refused(InputError, lambda: sheet(RigidAxle.load("rigid_axle"), BUSHES))
 
 
 @pytest.mark.parametrize("axle", ["reference_axle", "rigid_axle"])
@@ -123,7 +121,7 @@ def test_the_command_prints_it_and_writes_definitions(kintrafo):
     assert steer["definition"]
 
 
-def test_a_car_has_the_sheets_of_its_axles():
+def test_a_car_has_the_sheets_of_its_axles(refused):
     """Values of both axle files, without the steering of the rear, whose rack is fixed."""
     car = load("reference_vehicle")
     soft = {"front": BUSHES, "rear": {"upper_arm_rear": BUSHES["arm_rear"]}}
@@ -141,8 +139,7 @@ def test_a_car_has_the_sheets_of_its_axles():
     assert values == wanted
     assert "toe_by_lateral_opposed_rear_right" in values
     assert "steer_gradient_rear_left" not in values
-    with pytest.raises(InputError, match="bushings: the bushes of a car are"):
-        sheet(car, BUSHES)
+    refused(InputError, lambda: sheet(car, BUSHES))
 
 
 def test_axles_whose_signs_differ_have_rows_of_their_own():

@@ -349,17 +349,14 @@ def test_a_car_on_beams_rests_runs_straight_and_turns_by_its_column():
     assert across == pytest.approx(3.0 * weight / 9.81, rel=5e-3)
 
 
-def test_a_missing_ratio_is_one_of_the_file_that_lacks_it():
+def test_a_missing_ratio_is_one_of_the_file_that_lacks_it(refused):
     """An axle without sides has one file, and no curve of its steering."""
     beam = car_on_beams().with_changes(
         {"steering_column": None, "front.pitman_arm.gear_ratio": None}
     )
     sided = light_car(**{"front.side.rack.travel_per_turn_mm": None})
-    for car, words in (
-        (beam, r"add \[pitman_arm\] gear_ratio to the file of the axle\.$"),
-        (sided, r"add \[rack\] travel_per_turn_mm .*side, or a curve as \[steering\]"),
-    ):
-        with pytest.raises(kintrafo.InputError, match=words):
+    for car in (beam, sided):
+        with refused(kintrafo.InputError):
             Controls(car).rack(0.1)
 
 

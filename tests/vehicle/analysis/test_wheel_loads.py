@@ -85,7 +85,7 @@ def test_what_is_at_rest_stays_there(name):
     np.testing.assert_allclose(rates, [0.0, 20.0, 0.0, 0.0], atol=1e-9)
 
 
-def test_both_sides_of_an_axle_do_what_one_does():
+def test_both_sides_of_an_axle_do_what_one_does(refused):
     """Loads alike on both sides, as if one stood alone; on one side, the bar takes a part of it."""
     axle = Axle.load("reference_axle")
     model = AxleModel(axle, wheel_loads=True)
@@ -109,8 +109,10 @@ def test_both_sides_of_an_axle_do_what_one_does():
             abs(of_parts["holding_force"].sel(wheel=side)).max()
             < 1e-9 * abs(of_parts["force"]).max()
         )
-    with pytest.raises(InputError, match="contact_force_x and left_contact_force_x are given"):
-        run(model, replace(scenario, inputs={**braked, "left_contact_force_x": 0.0}))
+    refused(
+        InputError,
+        lambda: run(model, replace(scenario, inputs={**braked, "left_contact_force_x": 0.0})),
+    )
 
 
 @pytest.mark.parametrize("of", ["reference_car", "rigid_axle --wheels left"])
@@ -139,12 +141,14 @@ def test_every_kind_can_have_them(formulation):
     assert all(f"`{name}`" in loaded.mechanism.forces[-1].describe().acts for name in UNITS)
 
 
-def test_what_cannot_be_is_refused():
+def test_what_cannot_be_is_refused(refused):
     car = CARS[0]
     points = car.hardpoints.given()
     lower = {f"hardpoints.{name}.z": getattr(car.hardpoints, name)[2] - 300.0 for name in points}
-    with pytest.raises(InputError, match="radius_mm is missing"):
-        Model(car.with_changes({**lower, "tyre.radius_mm": None}), wheel_loads=True)
+    refused(
+        InputError,
+        lambda: Model(car.with_changes({**lower, "tyre.radius_mm": None}), wheel_loads=True),
+    )
     with pytest.raises(InputError, match="wheel_loads=True"):
         equilibrium(Model(car), inputs={"contact_force_x": 1.0})
     with pytest.raises(InputError, match=r"contact_force_w.*contact_force_"):
@@ -287,7 +291,7 @@ def test_every_part_of_an_axle_is_in_balance_along_a_motion():
         assert carried @ LOPSIDED.wheel.spin_axis(sign) == pytest.approx(hub, abs=1e-6)
 
 
-def test_a_ride_of_an_axle_under_loads_and_what_is_refused():
+def test_a_ride_of_an_axle_under_loads_and_what_is_refused(refused):
     braked = {"contact_force_x": -1500.0, "hub_torque": -540.0}
     model = RigidAxleModel(AXLE, wheel_loads=True)
     again = pickle.loads(pickle.dumps(model))
@@ -305,5 +309,4 @@ def test_a_ride_of_an_axle_under_loads_and_what_is_refused():
            AXLE.to_dict()["hardpoints"].items() if name != "unit"}  # fmt: skip
     low |= {f"rods.{name}.{end}": [p[0], p[1], p[2] - 330.0]
             for name, rod in AXLE.to_dict()["rods"].items() for end, p in rod.items()}  # fmt: skip
-    with pytest.raises(InputError, match="radius_mm is missing"):
-        RigidAxleModel(AXLE.with_changes(low), wheel_loads=True)
+    refused(InputError, lambda: RigidAxleModel(AXLE.with_changes(low), wheel_loads=True))

@@ -302,7 +302,7 @@ def test_the_usual_roll_ends_where_a_wheel_does():
     assert flat(characteristics.over(axle, "roll", [-most, most])).sizes == {"roll_angle": 2}
     low, high = (1e3 * (end - 0.3) for end in travel_range(axle.models["left"]).height)
     assert 35.0 < min(-low, high) < 50.0
-    with pytest.raises(PositionError, match="is out of reach: the left wheel") as refused:
+    with pytest.raises(PositionError, match="left") as refused:
         characteristics.over(axle, "roll", [0.0, 1.1 * most])
     shown = re.search(r"which is (\S+) deg to (\S+) deg", str(refused.value))
     assert float(shown[2]) == pytest.approx(np.degrees(most) / 0.98, rel=1e-2)
@@ -368,11 +368,11 @@ def test_anti_features_are_the_slopes_of_paths(end, torque_on):
 # -- steering -----------------------------------------------------------------------------------
 
 
-def test_a_steering_curve_ends_with_its_points():
+def test_a_steering_curve_ends_with_its_points(refused):
     curve = SteeringCurve(angle_deg=[-90.0, 0.0, 90.0], rack_mm=[-20.0, 0.0, 21.0])
     assert curve.rack(np.deg2rad([-90.0, 90.0])) == pytest.approx([-0.02, 0.021])
     for function in (curve.rack, curve.travel_per_turn):
-        with pytest.raises(InputError, match=r"angle = 91 deg is beyond .* -90 deg to 90 deg"):
+        with refused(InputError):
             function(np.deg2rad([0.0, 91.0]))
 
 
@@ -469,16 +469,15 @@ def test_what_is_wrong_is_named(data, refused):
     refused(InputError, lambda: Axle.from_dict({"axle": "front", **data}))
 
 
-def test_files_of_the_other_sort_are_reported():
+def test_files_of_the_other_sort_are_reported(refused):
     for name in ("reference_axle", {"axle": "front", "side": "reference_car"}):
         read = Suspension.load if isinstance(name, str) else Suspension.from_dict
-        with pytest.raises(InputError, match="file of an axle"):
+        with refused(InputError):
             read(name)
-    with pytest.raises(InputError, match="not of an axle"):
-        Axle.from_dict(CAR.to_dict())
+    refused(InputError, lambda: Axle.from_dict(CAR.to_dict()))
     for name in ("quarter_car", "driving_car"):
         for sort in (Suspension, Axle):
-            with pytest.raises(InputError, match=f"{name}: .*\n.*this is the file of a car"):
+            with refused(InputError):
                 sort.load(name)
 
 
@@ -505,27 +504,22 @@ def test_what_is_out_of_reach_is_refused(refused):
     refused(InputError, lambda: characteristics.over(axle, "bump"))
     assert any("does not reach" in text for text in checkup(axle).problems)
     refused(InputError, lambda: characteristics.over(AXLE, "roll", [3.0]))
-    for racks, words in (
-        ([-10.0, 10.0], "rises with the angle, and that steers to the right"),
-        ([200.0, 100.0], "no displacement within the 60 mm"),
-        ([100.0, 40.0], "the range must contain 0 deg"),
-    ):
+    for racks in ([-10.0, 10.0], [200.0, 100.0], [100.0, 40.0]):
         wrong = {"angle_deg": [-90.0, 90.0], "rack_mm": racks}
         axle = Axle.from_dict({"axle": "front", "side": CAR, "steering": wrong})
-        with pytest.raises(InputError, match=words):
+        with refused(InputError) as caught:
             characteristics.over(axle, "steer")
-        assert any(words in text for text in checkup(axle).problems)
+        assert any(text in str(caught.value) for text in checkup(axle).problems)
     curve = {"angle_deg": [-90.0, 90.0], "rack_mm": [10.0, -10.0]}
     axle = Axle.from_dict({"axle": "front", "side": CAR, "steering": curve})
     refused(InputError, lambda: characteristics.over(axle, "steer", [2.0]))
 
 
-def test_sides_with_different_equations_have_none_together():
+def test_sides_with_different_equations_have_none_together(refused):
     left = CAR.mirrored().with_changes({"tyre.lifts_off": True})
     axle = Axle.from_dict({"axle": "front", "right": CAR, "left": left})
     assert float(characteristics.over(axle, "bump", [0.0])["track"][0]) == pytest.approx(1.52)
-    with pytest.raises(InputError, match="must be in both files"):
-        AxleModel(axle)
+    refused(InputError, lambda: AxleModel(axle))
 
 
 # -- several axles, and the commands ------------------------------------------------------------
@@ -560,11 +554,10 @@ def test_both_wheels_are_drawn_together():
     assert not [name for name in drawn if str(name).endswith(("_left", "_right"))]
 
 
-def test_usual_positions_are_within_reach():
+def test_usual_positions_are_within_reach(refused):
     extent = motions.SweepRange(rebound=0.04, bump=0.03, step=0.01)
     assert motions.travels(AXLE, extent)[[0, -1]].tolist() == [-0.04, 0.03]
-    with pytest.raises(InputError, match="roll = -1 rad"):
-        motions.rolls(AXLE, motions.SweepRange(roll=-1.0))
+    refused(InputError, lambda: motions.rolls(AXLE, motions.SweepRange(roll=-1.0)))
 
 
 def pictured(chapter):

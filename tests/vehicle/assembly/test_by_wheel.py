@@ -1,7 +1,6 @@
 """The dimension of the wheels, and flat tables."""
 
 import numpy as np
-import pytest
 import xarray as xr
 from kintrafo import InputError
 from kintrafo.vehicle.assembly.by_wheel import flat, of_wheels, wheel_coordinate
@@ -34,6 +33,5 @@ def test_two_wheels_are_columns_of_a_table():
     assert table.attrs == {"title": "both"}
 
 
-def test_only_datasets():
-    with pytest.raises(InputError, match=r"xarray\.Dataset is needed"):
-        flat([1.0])
+def test_only_datasets(refused):
+    refused(InputError, lambda: flat([1.0]))

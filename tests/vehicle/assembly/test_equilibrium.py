@@ -93,12 +93,13 @@ def test_what_cannot_be_is_refused(name, refused):
     )
 
 
-def test_a_rack_that_is_not_there_is_refused():
+def test_a_rack_that_is_not_there_is_refused(refused):
     model = model_of("rigid axle")
-    with pytest.raises(InputError, match=r"rack_position = 10 mm: its wheels are not steered"):
-        equilibrium(model, rack_position=0.01)
-    with pytest.raises(InputError, match=r"rack_position: its wheels are not steered"):
-        run(model, Scenario(inputs={"rack_position": 0.01}))
+    refused(
+        InputError,
+        lambda: equilibrium(model, rack_position=0.01),
+        lambda: run(model, Scenario(inputs={"rack_position": 0.01})),
+    )
 
 
 @each
@@ -112,7 +113,7 @@ def test_a_motion_names_the_wheel_of_each_signal_in_words(name):
 
 
 @each
-def test_motions_start_with_the_wheels_at_given_heights(name):
+def test_motions_start_with_the_wheels_at_given_heights(name, refused):
     model = model_of(name)
     at_rest, _ = of_wheels(name, equilibrium(model))
     both = {wheel: at_rest[i] + (0.01, -0.005)[i] for i, wheel in enumerate(CENTERS[name])}
@@ -123,10 +124,8 @@ def test_motions_start_with_the_wheels_at_given_heights(name):
         rates = np.asarray(start)[len(start) // 2 :]
         assert sorted(rates)[-len(both) :] == [30.0] * len(both)
         assert np.count_nonzero(rates) == len(both)
-    with pytest.raises(PositionError, match=r"9000 mm is out of reach|cannot have its left"):
-        started(model, Scenario(height=9.0))
-    with pytest.raises(InputError, match="wheel 'middle' is not known"):
-        started(model, Scenario(height={"middle": 0.3}))
+    refused(PositionError, lambda: started(model, Scenario(height=9.0)))
+    refused(InputError, lambda: started(model, Scenario(height={"middle": 0.3})))
 
 
 @pytest.mark.parametrize("name", ["rigid_axle", "steered_rigid_axle", "twist_beam", "lopsided"])

@@ -6,7 +6,6 @@ of all first and second derivatives.
 """
 
 import math
-import re
 import shlex
 from pathlib import Path
 
@@ -307,7 +306,7 @@ def test_stops_and_the_curve_of_the_damper_act_on_both_sides():
     assert rates[1] > rates[0] + 9e4
 
 
-def test_the_damper_ends_the_travel():
+def test_the_damper_ends_the_travel(refused):
     short = AXLE.with_changes({"damper.length_min_mm": 450.0, "damper.length_max_mm": 540.0})
     curves = characteristics.over(short, "bump")
     model = RigidAxleModel(short)
@@ -321,11 +320,10 @@ def test_the_damper_ends_the_travel():
         # halved forty times
         assert near == pytest.approx(limit, abs=1e-10)
         assert float(curves["wheel_travel"][-part]) == pytest.approx(0.98 * at, rel=1e-9)
-    with pytest.raises(PositionError, match="a damper is at the end of its length"):
-        model.states_at(0.3, 0.3)
+    refused(PositionError, lambda: model.states_at(0.3, 0.3))
 
 
-def test_no_position_is_beyond_a_gap():
+def test_no_position_is_beyond_a_gap(refused):
     """A damper that is shorter than it may be for a part of the way is upside down behind it."""
     low = AXLE.with_changes(
         {"hardpoints.damper_top": [-90.0, -560.0, 420.0], "damper.length_min_mm": 60.0}
@@ -334,27 +332,26 @@ def test_no_position_is_beyond_a_gap():
     end = 0.3 * model.farthest(0.3, 0.3)
     model.states_at([0.0, end], [0.0, end])
     for travel in (0.19, 0.25):
-        with pytest.raises(PositionError, match=rf"the motion ends at \+{1e3 * end:.1f}"):
+        with refused(PositionError):
             model.states_at(travel, travel)
-        with pytest.raises(PositionError, match="a damper is at the end of its length"):
+        with refused(PositionError):
             model.states_at([0.0, travel, -0.01], [0.0, travel, 0.01])
 
 
-def test_no_gap_is_too_narrow():
+def test_no_gap_is_too_narrow(refused):
     """The shortest that the damper gets on its way, and a micrometre more."""
     low = AXLE.with_changes({"hardpoints.damper_top": [-90.0, -540.0, 420.0]})
     travels = np.linspace(0.11, 0.13, 2001)
     states = RigidAxleModel(low).states_at(travels, travels)
     least = RigidAxleModel(low).signals(states)["right_damper_length"].min()
     short = RigidAxleModel(low.with_changes({"damper.length_min_mm": 1e3 * least + 1e-3}))
-    with pytest.raises(PositionError, match="a damper is at the end of its length"):
-        short.states_at(0.2, 0.2)
+    refused(PositionError, lambda: short.states_at(0.2, 0.2))
 
 
 # -- errors ---------------------------------------------------------------------------------------
 
 
-def test_four_links_and_a_panhard_rod_are_one_too_many():
+def test_four_links_and_a_panhard_rod_are_one_too_many(as_stored):
     """Five rods take five freedoms: what is left is neither heave nor roll alone."""
     right = {"chassis": [500.0, -400.0, 480.0], "axle": [-20.0, -400.0, 525.0]}
     with pytest.raises(InputError) as error:
@@ -368,20 +365,19 @@ def test_four_links_and_a_panhard_rod_are_one_too_many():
             }
         )
     (problem,) = error.value.problems
-    assert "5 rods" in problem
-    assert "These remove 5 (the singular values of their constraints are" in problem
-    assert "one remains" in problem
-    assert "only because its bushes deflect" in problem
+    as_stored(problem)
     # word for word on the page
     assert problem in " ".join(PAGE.read_text(encoding="utf-8").split())
 
 
-def test_a_rod_that_repeats_another_is_one_too_many():
+def test_a_rod_that_repeats_another_is_one_too_many(refused):
     """Five rods along x in one pattern take four freedoms: one of them is not needed."""
-    with pytest.raises(InputError, match="2 remain: the rods are redundant"):
-        planar(0.0, 400.0).with_changes(
+    refused(
+        InputError,
+        lambda: planar(0.0, 400.0).with_changes(
             {"rods.fifth": {"chassis": [620.0, 0.0, 310.0], "axle": [20.0, 0.0, 310.0]}}
-        )
+        ),
+    )
 
 
 @pytest.mark.parametrize(
@@ -416,16 +412,13 @@ def test_what_cannot_be_is_refused(changes, refused):
     refused(InputError, lambda: AXLE.with_changes(changes))
 
 
-def test_other_doors_refuse_it_by_name():
+def test_other_doors_refuse_it_by_name(refused):
     data = AXLE.to_dict()
     for refusing in (Suspension, Axle):
         for given in (lambda kind: kind.load("rigid_axle"), lambda kind: kind.from_dict(data)):
-            with pytest.raises(InputError, match="this is the file of a rigid axle"):
+            with refused(InputError):
                 given(refusing)
-    with pytest.raises(InputError, match="rigid_axle is missing"):
-        RigidAxle.from_dict({"axle": "rear"})
-    with pytest.raises(InputError, match="a RigidAxle, a name or a path is needed"):
-        RigidAxleModel(3)
+    refused(InputError, lambda: RigidAxle.from_dict({"axle": "rear"}), lambda: RigidAxleModel(3))
 
 
 @pytest.mark.parametrize(
@@ -490,26 +483,28 @@ def test_an_unusual_camber_is_noted():
 
 
 @pytest.mark.parametrize("name", ["", "a.b", "upper link", "1st"])
-def test_rods_have_names_that_files_and_tables_can_hold(name):
+def test_rods_have_names_that_files_and_tables_can_hold(name, refused):
     data = AXLE.to_dict()
     data["rods"][name] = data["rods"].pop("upper_link")
-    with pytest.raises(InputError, match=rf"\[rods\] '{re.escape(name)}' is not a name"):
-        RigidAxle.from_dict(data)
+    refused(InputError, lambda: RigidAxle.from_dict(data))
 
 
-def test_positions_beyond_reach_are_refused():
-    with pytest.raises(PositionError, match=r"left wheel at \+900 mm"):
-        characteristics.over(AXLE, "bump", [0.0, 0.9])
-    with pytest.raises(PositionError, match="less than 45 deg"):
-        characteristics.over(AXLE, "roll", [1.0])
+def test_positions_beyond_reach_are_refused(refused):
+    refused(
+        PositionError,
+        lambda: characteristics.over(AXLE, "bump", [0.0, 0.9]),
+        lambda: characteristics.over(AXLE, "roll", [1.0]),
+    )
     with pytest.raises(InputError, match="finite"):
         characteristics.over(AXLE, "bump", [math.nan])
-    with pytest.raises(PositionError, match="no stable equilibrium"):
-        equilibrium(
+    refused(
+        PositionError,
+        lambda: equilibrium(
             RigidAxleModel(
                 AXLE.with_changes({"tyre.rate_N_per_m": 0.0, "spring.rate_N_per_m": 1.0})
             )
-        )
+        ),
+    )
 
 
 def test_what_is_given_comes_back():

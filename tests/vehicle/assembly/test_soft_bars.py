@@ -122,11 +122,11 @@ def test_the_matrix_of_both_contacts_has_the_bar():
     assert added == pytest.approx(YIELDING.bar.rate() * np.outer(slopes, slopes), rel=0.01)
 
 
-def test_what_is_no_bush():
-    for keys, words in (
-        ({"bush_radial_N_per_mm": 0.0}, "bush_radial_N_per_mm = 0.0 N/mm"),
-        ({"link_axial_N_per_mm": -3.0}, "link_axial_N_per_mm = -3.0 N/mm"),
-        ({"bush_radial_N_per_mm": 1e3, "bush": [240.0, -0.1, 320.0]}, "from the middle of the car"),
+def test_what_is_no_bush(refused):
+    for keys in (
+        {"bush_radial_N_per_mm": 0.0},
+        {"link_axial_N_per_mm": -3.0},
+        {"bush_radial_N_per_mm": 1e3, "bush": [240.0, -0.1, 320.0]},
     ):
-        with pytest.raises(InputError, match=words):
+        with refused(InputError):
             axle_with(**keys)

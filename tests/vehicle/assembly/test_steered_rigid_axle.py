@@ -291,31 +291,28 @@ def test_it_rests_at_its_design():
 # -- errors ---------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("changes", "words"),
-    [
-        ({"drag_link.knuckle": [2.0, 725.0, 370.0]}, r"\[drag_link\] turns the left knuckle with"),
-        ({"hardpoints.track_rod": [2.0, -725.0, 370.0]}, "track rod turns the right knuckle with"),
-        ({"hardpoints.kingpin_upper": [10.0, -735.0, 240.0]}, "upper point is not above"),
-        ({"hardpoints.kingpin_upper": [10.0, -735.0, 260.0]}, "kingpin"),
-        ({"drag_link.knuckle": [-730.0, 470.0, 445.0]}, r"\[drag_link\] is 0.000 mm long"),
-        ({"pitman_arm.ball_mm": [-10.0, 530.0, 300.0]}, "from the vertical"),
-        ({"pitman_arm.ball_mm": [-730.0, 400.0, 645.0]}, "from the axis of the Pitman arm"),
-        ({"pitman_arm.axis": [0.0, 0.0, 0.0]}, "no direction"),
-        ({"pitman_arm.pivot_mm": [-930.0, 470.0, 445.0]}, "at its dead centre"),
-        ({"pitman_arm.ball_mm": [-1e9, 470.0, 445.0]}, r"ball_mm = .* out of range"),
-        ({"drag_link.knuckle": [-1e6, 530.0, 445.0]}, "knuckle is farther than 20 m"),
-        ({"hardpoints.track_rod": [-170.0, 697.0, 300.0]}, r"\[hardpoints\] track_rod = .* right"),
-        ({"brakes.torque_on": "body"}, "torque_on = 'body' must be 'carrier'"),
-        ({"drive": {"share": 1.0}}, "not driven"),
-        ({"drive": {"torque_on": "body"}}, "not driven"),
-        ({"rods.track_rod": {"chassis": [1, 2, 3], "axle": [4, 5, 6]}}, "name of another part"),
-        ({"steered_rigid_axle": "rear"}, r"'rear' must be 'front'\. Enter it"),
-    ],
-)
-def test_what_cannot_steer_is_refused(changes, words):
-    with pytest.raises(InputError, match=words):
-        AXLE.with_changes(changes)
+def test_what_cannot_steer_is_refused(refused):
+    for changes in (
+        {"drag_link.knuckle": [2.0, 725.0, 370.0]},
+        {"hardpoints.track_rod": [2.0, -725.0, 370.0]},
+        {"hardpoints.kingpin_upper": [10.0, -735.0, 240.0]},
+        {"hardpoints.kingpin_upper": [10.0, -735.0, 260.0]},
+        {"drag_link.knuckle": [-730.0, 470.0, 445.0]},
+        {"pitman_arm.ball_mm": [-10.0, 530.0, 300.0]},
+        {"pitman_arm.ball_mm": [-730.0, 400.0, 645.0]},
+        {"pitman_arm.axis": [0.0, 0.0, 0.0]},
+        {"pitman_arm.pivot_mm": [-930.0, 470.0, 445.0]},
+        {"pitman_arm.ball_mm": [-1e9, 470.0, 445.0]},
+        {"drag_link.knuckle": [-1e6, 530.0, 445.0]},
+        {"hardpoints.track_rod": [-170.0, 697.0, 300.0]},
+        {"brakes.torque_on": "body"},
+        {"drive": {"share": 1.0}},
+        {"drive": {"torque_on": "body"}},
+        {"rods.track_rod": {"chassis": [1, 2, 3], "axle": [4, 5, 6]}},
+        {"steered_rigid_axle": "rear"},
+    ):
+        with refused(InputError):
+            AXLE.with_changes(changes)
 
 
 def test_its_schema_has_no_drive_and_brakes_on_the_knuckles_alone():
@@ -327,24 +324,25 @@ def test_its_schema_has_no_drive_and_brakes_on_the_knuckles_alone():
 @pytest.mark.parametrize(
     "place", ["hardpoints.track_rod", "drag_link", "pitman_arm.ball_mm", "steered_rigid_axle"]
 )
-def test_what_is_missing_is_named(place):
+def test_what_is_missing_is_named(place, refused):
     data = AXLE.to_dict()
     *sections, key = place.split(".")
     del (data[sections[0]] if sections else data)[key]
-    words = rf"{key}\]? is missing"
-    if place == "steered_rigid_axle":
-        words = 'Add a line `steered_rigid_axle = "front"`;'
-    with pytest.raises(InputError, match=words):
-        type(AXLE).from_dict(data)
+    refused(InputError, lambda: type(AXLE).from_dict(data))
 
 
-def test_positions_out_of_reach_are_refused():
-    with pytest.raises(PositionError, match="the drag link or the track rod reaches no farther"):
-        characteristics.over(AXLE, "rack", [-0.3])
-    with pytest.raises(PositionError, match="its steering at -300 mm"):
-        MODEL.states_at(0.0, 0.0, -0.3)
-    with pytest.raises(InputError, match="ratio of the steering wheel is missing"):
-        characteristics.over(AXLE.with_changes({"pitman_arm.gear_ratio": None}), "steer", [0.1])
+def test_positions_out_of_reach_are_refused(refused):
+    refused(
+        PositionError,
+        lambda: characteristics.over(AXLE, "rack", [-0.3]),
+        lambda: MODEL.states_at(0.0, 0.0, -0.3),
+    )
+    refused(
+        InputError,
+        lambda: characteristics.over(
+            AXLE.with_changes({"pitman_arm.gear_ratio": None}), "steer", [0.1]
+        ),
+    )
 
 
 # -- in a car -------------------------------------------------------------------------------------

@@ -46,7 +46,7 @@ def test_the_change_of_the_tutorial_turns_bump_steer_round():
     assert after < 0.0 < before
 
 
-def test_some_characteristics_are_compared(kintrafo, tmp_path):
+def test_some_characteristics_are_compared(kintrafo, tmp_path, ends):
     kintrafo("new", "my_car.toml")
     code, out, _ = kintrafo(
         "compare",
@@ -67,9 +67,7 @@ def test_some_characteristics_are_compared(kintrafo, tmp_path):
     assert "caster" in (tmp_path / "a.csv").read_text(encoding="utf-8")
     height, width, _ = imread(tmp_path / "a.png").shape
     assert width > height  # two curves beside each other
-    code, _, err = kintrafo("compare", CAR, "my_car.toml", "--of", "too")
-    assert code == 2
-    assert "Did you mean toe" in err
+    ends(2, "compare", CAR, "my_car.toml", "--of", "too")
 
 
 @pytest.mark.parametrize(
@@ -102,15 +100,13 @@ def test_the_first_screen_has_no_command_of_few(kintrafo):
     assert "mechanism" in listed
 
 
-def test_what_does_not_take_a_rigid_axle_says_so(kintrafo):
+def test_what_does_not_take_a_rigid_axle_says_so(kintrafo, ends):
     """Its page and the refusal name the same command."""
     page = (ROOT / "docs/suspension/types.md").read_text(encoding="utf-8")
     (listed,) = re.findall(r"`([^`]*)` needs the file of a suspension", page)
     assert listed in not_of_a_suspension("rigid_axle")
     kintrafo("new", "rear.toml", "--rigid-axle")
-    code, _, err = kintrafo("export", "rear.toml", "--to", "points")
-    assert code == 2
-    assert "the file of a rigid rear axle" in " ".join(err.split())
+    ends(2, "export", "rear.toml", "--to", "points")
 
 
 @pytest.mark.parametrize("file", ["twist_beam", "quarter_car"])
@@ -129,12 +125,10 @@ def test_every_assembly_has_a_topology_a_derivation_and_a_motion_to_look_at(
 # -- check and new ------------------------------------------------------------------------------
 
 
-def test_new_refuses_to_overwrite(kintrafo, tmp_path):
+def test_new_refuses_to_overwrite(kintrafo, tmp_path, ends):
     assert kintrafo("new", "my_car.toml")[0] == 0
     (tmp_path / "my_car.toml").write_text("# mine", encoding="utf-8")
-    code, _, err = kintrafo("new", "my_car.toml")
-    assert code == 2
-    assert "exists already" in err
+    ends(2, "new", "my_car.toml")
     assert (tmp_path / "my_car.toml").read_text(encoding="utf-8") == "# mine"
     assert kintrafo("new", "my_car.toml", "--force")[0] == 0
     assert kintrafo("check", "my_car.toml")[0] == 0
@@ -231,15 +225,13 @@ def test_a_picture_compares_the_curves_whose_differences_can_be_seen():
     assert _differing(table) == ["wheel_rate", "ride_rate"]
 
 
-def test_compare_with_itself_differs_by_nothing(kintrafo):
+def test_compare_with_itself_differs_by_nothing(kintrafo, ends):
     code, out, _ = kintrafo("compare", CAR, CAR, "--json")
     assert code == 0
     found = json.loads(out)
     assert {entry["data_set"] for entry in found} == {f"{CAR} (2)"}
     assert {entry["largest"] for entry in found} == {0.0}
-    code, _, err = kintrafo("compare", CAR)
-    assert code == 2
-    assert "two or more" in err
+    ends(2, "compare", CAR)
 
 
 @pytest.mark.parametrize("car", [CAR, "double_wishbone_car"])
@@ -258,34 +250,31 @@ def test_simulation_settles_where_statics_says(kintrafo, tmp_path, car):
     assert imread(tmp_path / "step.png").std() > 0.01
 
 
-def test_steering_with_mass_leaves_the_rack_free(kintrafo, tmp_path):
+def test_steering_with_mass_leaves_the_rack_free(kintrafo, tmp_path, as_stored, ends):
     text = (ROOT / "vehicle/data/reference_car.toml").read_text(encoding="utf-8")
     heavy = re.sub(r"(\[bodies.tie_rod\][^=]*=) 0.0", r"\1 1.0", text)
     assert heavy != text
     (tmp_path / "heavy.toml").write_text(heavy, encoding="utf-8")
     code, out, err = kintrafo("simulate", "heavy.toml", "--json")
     assert code == 0
-    assert "rack moves freely" in err
+    as_stored(" ".join(err.split()))
     assert "beta9" in json.loads(out)["statistics"]
-    code, _, err = kintrafo("simulate", "heavy.toml", "--rack", 3)
-    assert code == 2
-    assert "cannot be prescribed" in err
+    ends(2, "simulate", "heavy.toml", "--rack", 3)
     assert kintrafo("check", "heavy.toml")[0] == 0
     assert kintrafo("characteristics", "heavy.toml", "--positions", "--over", "rack")[0] == 0
 
 
-def test_wheel_that_leaves_the_ground_is_reported(kintrafo):
+def test_wheel_that_leaves_the_ground_is_reported(kintrafo, as_stored):
     code, out, err = kintrafo("simulate", CAR, "--road-step", -60)
     assert code == 1  # its tyre holds on to the road
     assert "The wheel leaves the ground" in out
-    assert "the tyre pulls at the road" in err
+    as_stored(" ".join(err.split()))
 
 
 def test_unfinished_simulation_keeps_what_it_has(kintrafo, tmp_path):
     # the rack moves away until the tie rod cannot reach the knuckle
     code, _, err = kintrafo("simulate", CAR, "--rack-sine", 200, "-o", "part.csv")
-    assert code == 1
-    assert "cannot close" in err
+    assert (code, "tie_rod" in err) == (1, True)
     rows = (tmp_path / "part.csv").read_text(encoding="utf-8").splitlines()
     assert 80 < len(rows) < 1001
 
@@ -357,23 +346,17 @@ def test_mistakes_end_with_a_message(kintrafo, arguments, code, words, tmp_path)
     assert not list(tmp_path.iterdir())
 
 
-def test_missing_packages_are_named_with_the_remedy(kintrafo, monkeypatch):
+def test_missing_packages_are_named_with_the_remedy(monkeypatch, ends):
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     monkeypatch.setitem(sys.modules, "pyarrow.parquet", None)
-    code, _, err = kintrafo("characteristics", CAR, "-o", "path.parquet")
-    assert code == 3
-    assert 'pip install "kintrafo[parquet]"' in err
+    ends(3, "characteristics", CAR, "-o", "path.parquet")
     monkeypatch.setitem(sys.modules, "sympy", None)
-    code, _, err = kintrafo("mechanism", "generate", __file__)
-    assert code == 3
-    assert 'pip install "kintrafo[generator]"' in err
+    ends(3, "mechanism", "generate", __file__)
 
 
-def test_a_folder_in_the_way_is_refused(kintrafo, tmp_path):
+def test_a_folder_in_the_way_is_refused(tmp_path, ends):
     (tmp_path / "path_rack.csv").mkdir()
-    code, _, err = kintrafo("characteristics", CAR, "-o", "path.csv")
-    assert code == 2
-    assert "not a file" in err
+    ends(2, "characteristics", CAR, "-o", "path.csv")
 
 
 def test_numbers_in_tables():

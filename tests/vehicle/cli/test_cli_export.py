@@ -18,7 +18,7 @@ def nothing_is_made(monkeypatch):
 
 
 @pytest.mark.parametrize("to", EVERY)
-def test_a_file_with_a_value_out_of_its_range(kintrafo, tmp_path, to):
+def test_a_file_with_a_value_out_of_its_range(kintrafo, tmp_path, to, as_stored):
     """As a person leaves it who has edited it: key, value, unit and range are named."""
     kintrafo("new", "a.toml")
     file = tmp_path / "a.toml"
@@ -29,7 +29,7 @@ def test_a_file_with_a_value_out_of_its_range(kintrafo, tmp_path, to):
         code, out, err = kintrafo("export", "a.toml", "--to", to)
         assert (code, out) == (2, "")
         message = " ".join(err.split())
-        assert f"spring_rate_N_per_m = {value}" in message
+        as_stored(message)
         assert words in message
         assert [path.name for path in tmp_path.iterdir()] == ["a.toml"]
 
@@ -60,23 +60,21 @@ def test_bad_arguments_are_found_before_a_car_is_derived(kintrafo, tmp_path, arg
 
 
 @pytest.mark.parametrize("name", ["andrews", "crane.py"])
-def test_a_mechanism_has_no_table_of_hardpoints(kintrafo, tmp_path, name):
-    code, out, err = kintrafo("export", name, "--to", "points")
-    assert (code, out) == (2, "")
-    assert "this is a mechanism, and a table of hardpoints" in " ".join(err.split())
+def test_a_mechanism_has_no_table_of_hardpoints(tmp_path, name, ends):
+    ends(2, "export", name, "--to", "points")
     assert not [*tmp_path.iterdir()]
 
 
-def test_names_that_are_almost_right(kintrafo):
-    code, _, err = kintrafo("export", "four_bars", "--to", "c")
-    assert code == 2
-    assert "FILE 'four_bars' is not known. Did you mean four_bar?" in " ".join(err.split())
+def test_names_that_are_almost_right(ends):
+    ends(2, "export", "four_bars", "--to", "c")
 
 
 @pytest.mark.parametrize("to", ["casadi", "jax"])
-def test_equations_that_iterate_are_refused_without_other_warnings(kintrafo, tmp_path, to):
+def test_equations_that_iterate_are_refused_without_other_warnings(
+    kintrafo, tmp_path, to, as_stored
+):
     code, out, err = kintrafo("export", "rigid_axle", "--to", to)
     assert (code, out) == (2, "")
-    assert "Newton's method solves a loop" in " ".join(err.split())
+    as_stored(" ".join(err.split()))
     assert "XLA" not in err
     assert not [*tmp_path.iterdir()]

@@ -209,15 +209,14 @@ class TestDoubleWishbone:
             ours = [float(model.signal(n, moving)) for n in ("damper_force", "spring_velocity")]
             assert math.prod(ours) == pytest.approx(-force * speed, rel=1e-9)
 
-    def test_a_damper_across_the_motion_has_no_place(self, tmp_path):
+    def test_a_damper_across_the_motion_has_no_place(self, tmp_path, refused):
         data = content(WISHBONES)
         # from the lower arm's end along its hinge
         data["Shock"] |= {
             "Location Arm": [0.0, 0.62, -0.27],
             "Location Chassis": [0.4, 0.57, -0.27],
         }
-        with pytest.raises(InputError, match=r"between them the damper moves .* times as fast"):
-            chrono.read(written(tmp_path, data))
+        refused(InputError, lambda: chrono.read(written(tmp_path, data)))
 
 
 def leaves(data, above=()):
@@ -286,14 +285,12 @@ class TestKeys:
             (("Spindle", "COM"), "Com"),
         ],
     )
-    def test_other_spellings_are_refused(self, tmp_path, place, other, points_only):
+    def test_other_spellings_are_refused(self, tmp_path, place, other, points_only, refused):
         data = content()
         holder = data if len(place) == 1 else data[place[0]]
         holder[other] = holder.pop(place[-1])
-        words = f'> {other}" is' if len(place) > 1 else f'"{other}" is'
-        with pytest.raises(InputError, match=re.escape(words)) as caught:
+        with refused(InputError):
             chrono.read(written(tmp_path, data), points_only=points_only)
-        assert f'Is it "{place[-1]}"?' in str(caught.value)
 
     def test_a_preload_pushes_the_ends_apart(self, tmp_path):
         """Chrono's force is preload - rate (length - free length)."""
@@ -346,14 +343,13 @@ class TestKeys:
         del data[part][key]
         refused(InputError, lambda: chrono.read(written(tmp_path, data)))
 
-    def test_a_key_that_is_there_twice(self, tmp_path):
+    def test_a_key_that_is_there_twice(self, tmp_path, refused):
         path = tmp_path / "strut.json"
         text = json.dumps(content())
         path.write_text(
             text.replace('"Axle":', '"Axle": {"Inertia": 1}, "Axle":'), encoding="utf-8"
         )
-        with pytest.raises(InputError, match='"Axle" is given 2 times'):
-            chrono.read(path)
+        refused(InputError, lambda: chrono.read(path))
 
 
 # deformation (of the length, over the free one) [m] and force [N], which pulls where positive
@@ -510,7 +506,7 @@ class TestNoBody:
 
     ARM: ClassVar = {"Moments of Inertia": [0.4, 0.4, 0.8938]}
 
-    def test_is_reported_by_the_keys_of_the_file(self, tmp_path):
+    def test_is_reported_by_the_keys_of_the_file(self, tmp_path, as_stored):
         data = content(WISHBONES)
         data["Lower Control Arm"] |= self.ARM
         path = written(tmp_path, data)
@@ -518,7 +514,7 @@ class TestNoBody:
             chrono.read(path)
         (problem,) = caught.value.problems
         assert problem.startswith('"Lower Control Arm > Moments of Inertia" = [0.4, 0.4, 0.8938], ')
-        assert "allowed is at most the sum of the other two, 0.8 kg m^2" in problem
+        as_stored(problem)
         assert "--points-only" in problem
         assert "inertia_xx" not in problem
         assert chrono.read(path, points_only=True).suspension.hardpoints.lower_arm_front
@@ -570,7 +566,7 @@ class TestPointsOnly:
         )
         assert any(line.startswith("Spindle: Mass = 1.103, ") for line in left_out)
 
-    def test_the_command(self, tmp_path, monkeypatch):
+    def test_the_command(self, tmp_path, monkeypatch, refused):
         monkeypatch.chdir(tmp_path)
         data = content(WISHBONES)
         data["Lower Control Arm"] |= TestNoBody.ARM
@@ -581,8 +577,7 @@ class TestPointsOnly:
         assert "  left out  Lower Control Arm: Mass = 1.611" in result.output
         car = Suspension.load("car.toml")
         assert car == chrono.read(path, points_only=True).suspension.mirrored()
-        with pytest.raises(InputError, match="nothing of a tire is taken"):
-            chrono.read(path, tire=TIRE, points_only=True)
+        refused(InputError, lambda: chrono.read(path, tire=TIRE, points_only=True))
 
 
 def tire_of(template, **parts):
@@ -686,10 +681,9 @@ class TestTires:
 
 
 class TestMultiLink:
-    def test_its_wheel_moves_on_the_five_links_that_the_refusal_reports(self):
+    def test_its_wheel_moves_on_the_five_links_that_the_refusal_reports(self, refused):
         """Against the joints of Chrono: a hinge of the arm, and rods of constant length."""
-        with pytest.raises(InputError, match="two links to one outer point for the upper arm"):
-            chrono.read(LINKS)
+        refused(InputError, lambda: chrono.read(LINKS))
         data = content(LINKS)
         arm, links = data["Upper Arm"], (data["Lateral"], data["Trailing Link"], data["Tierod"])
         rods = [(link["Location Chassis"], link["Location Upright"]) for link in links]
@@ -818,12 +812,13 @@ class TestCommand:
         assert text.startswith("# From MacPhersonStrut.json and RigidTire.json of Project Chrono")
         assert CliRunner().invoke(app, ["check", "car.toml"]).exit_code == 0
 
-    def test_nothing_is_overwritten_or_left_behind(self, tmp_path, monkeypatch):
+    def test_nothing_is_overwritten_or_left_behind(self, tmp_path, monkeypatch, refused):
         monkeypatch.chdir(tmp_path)
         Path("car.toml").write_text("mine")
         run = CliRunner().invoke
-        with pytest.raises(InputError, match="exists already"):
-            run(app, ["import", str(STRUT), "car.toml"], catch_exceptions=False)
+        refused(
+            InputError, lambda: run(app, ["import", str(STRUT), "car.toml"], catch_exceptions=False)
+        )
         assert run(app, ["import", str(STRUT), "x.toml", "--side", "up"]).exit_code == 2
         assert [path.name for path in tmp_path.iterdir()] == ["car.toml"]
         assert Path("car.toml").read_text() == "mine"

@@ -49,15 +49,14 @@ def test_points_of_a_table_replace_those_of_the_file(tmp_path):
     assert "# control arm to knuckle" in path.read_text(encoding="utf-8")
 
 
-def test_the_other_side_is_mirrored(tmp_path):
+def test_the_other_side_is_mirrored(tmp_path, refused):
     path = write_points(CAR.mirrored(), tmp_path / "left.csv")
     found = merged(read_points(path), "reference_car", mirrored=True)
     assert Suspension.load(write_merged(found, tmp_path / "right.toml")) == CAR
-    with pytest.raises(InputError, match="Mirror them: --mirror"):
-        merged(read_points(path), "reference_car")
+    refused(InputError, lambda: merged(read_points(path), "reference_car"))
 
 
-def test_excel_is_read(tmp_path):
+def test_excel_is_read(tmp_path, refused):
     openpyxl = pytest.importorskip("openpyxl")
     book = openpyxl.Workbook()
     book.active.append(["hardpoint", "x (mm)", "y (mm)", "z (mm)"])
@@ -67,8 +66,7 @@ def test_excel_is_read(tmp_path):
     book.save(tmp_path / "points.xlsx")
     points = read_points(tmp_path / "points.xlsx").points
     assert points == {"ball_joint": (5.0, -711.5, 180.0), "strut_top": (-28.0, -585.0, 820.0)}
-    with pytest.raises(InputError, match="not a readable Excel workbook"):
-        read_points(table(tmp_path, "no book", "other.xlsx"))
+    refused(InputError, lambda: read_points(table(tmp_path, "no book", "other.xlsx")))
 
 
 HEAD = "point,x [mm],y [mm],z [mm]\n"
@@ -169,13 +167,12 @@ def test_a_refusal_says_how_the_table_was_read(tmp_path, refused):
     refused(InputError, lambda: merged(read_points(path), "reference_car"))
 
 
-def test_a_unit_that_is_given_must_not_contradict(tmp_path):
+def test_a_unit_that_is_given_must_not_contradict(tmp_path, refused):
     path = table(tmp_path, HEAD + "ball_joint,1,2,3\n")
     assert read_points(path, unit="millimetre").unit == "mm"
-    with pytest.raises(InputError, match="unit of the table is mm, and not in"):
-        read_points(path, unit="in")
-    with pytest.raises(InputError, match="'parsec' is not a length"):
-        read_points(path, unit="parsec")
+    refused(
+        InputError, lambda: read_points(path, unit="in"), lambda: read_points(path, unit="parsec")
+    )
 
 
 POINTING = {
@@ -195,28 +192,25 @@ def test_axes_of_other_programs(words, tmp_path):
             found = read_points(path, axes=" ".join(words), left_handed=told)
             assert found.points["a"] == tuple((1.0 * x + 2.0 * y + 3.0 * z).tolist())
         else:
-            with pytest.raises(InputError, match=r"-handed axes|on one line"):
+            with pytest.raises(InputError, match=r"axes|line"):
                 read_points(path, axes=" ".join(words), left_handed=told)
 
 
-def test_axes_that_are_none(tmp_path):
+def test_axes_that_are_none(tmp_path, refused):
     path = table(tmp_path, HEAD + "a,1,2,3\n")
     for words in ("", "forward left", "forward left sky", "forward left up down"):
-        with pytest.raises(InputError, match="where x, y and z of the table point"):
+        with refused(InputError):
             read_points(path, axes=words)
 
 
-def test_names_of_the_user(tmp_path):
+def test_names_of_the_user(tmp_path, refused):
     path = table(tmp_path, HEAD + "FLCA outboard,5,-711.5,180\nother,1,2,3\n")
     points = read_points(path)
     found = merged(points, "reference_car", names={"ball_joint": "flca_Outboard"})
     assert found.read == {"ball_joint": "FLCA outboard"}
     assert found.left_out == ("other",)
-    for names, words in (
-        ({"ball_joint": "x"}, "there is no hardpoint x"),
-        ({"bal_joint": "other"}, "bal_joint is not a hardpoint"),
-    ):
-        with pytest.raises(InputError, match=words):
+    for names in ({"ball_joint": "x"}, {"bal_joint": "other"}):
+        with refused(InputError):
             merged(points, "reference_car", names=names)
 
 
@@ -239,7 +233,7 @@ CAMBER ANGLE (deg): 0.00
 """
 
 
-def test_a_text_of_lotus_suspension_analysis(tmp_path):
+def test_a_text_of_lotus_suspension_analysis(tmp_path, refused):
     """There x points rearward and y to the right."""
     points = read_points(table(tmp_path, LOTUS, "front.txt"))
     found = merged(points, "double_wishbone_car")
@@ -250,15 +244,15 @@ def test_a_text_of_lotus_suspension_analysis(tmp_path):
     }
     new = Suspension.load(write_merged(found, tmp_path / "new.toml"))
     assert new == Suspension.load("double_wishbone_car")
-    with pytest.raises(InputError, match="x, y and z have no unit"):
-        read_points(table(tmp_path, LOTUS.replace("(mm)", ""), "front.txt"))
+    refused(
+        InputError, lambda: read_points(table(tmp_path, LOTUS.replace("(mm)", ""), "front.txt"))
+    )
     for y in ("360,00", "3 60.00", "nan"):
-        with pytest.raises(InputError, match="line 5: three numbers are needed before POINT"):
+        with refused(InputError):
             read_points(table(tmp_path, LOTUS.replace("360.00", y, 1), "front.txt"))
     exponents = read_points(table(tmp_path, LOTUS.replace("360.00", "3.6E+02"), "front.txt"))
     assert exponents.points == points.points
-    with pytest.raises(InputError, match="text with its points"):
-        read_points(table(tmp_path, LOTUS, "front.shk"))
+    refused(InputError, lambda: read_points(table(tmp_path, LOTUS, "front.shk")))
 
 
 SIDES = (
@@ -284,7 +278,7 @@ def workbook(tmp_path, sheets, hidden=""):
     return tmp_path / "points.xlsx"
 
 
-def test_a_workbook_of_optimumk(tmp_path):
+def test_a_workbook_of_optimumk(tmp_path, refused):
     """Each car gets the points of its own side."""
     points = read_points(workbook(tmp_path, {"Front": SIDES}))
     right = Suspension.load("double_wishbone_car")
@@ -295,62 +289,55 @@ def test_a_workbook_of_optimumk(tmp_path):
     right.mirrored().save(tmp_path / "old.toml")
     new = Suspension.load(write_merged(merged(points, tmp_path / "old.toml"), tmp_path / "l.toml"))
     assert new.hardpoints.lower_arm_front == (170.0, 350.0, 190.0)
-    with pytest.raises(InputError, match="has both sides"):
-        merged(points, "double_wishbone_car", mirrored=True)
+    refused(InputError, lambda: merged(points, "double_wishbone_car", mirrored=True))
     swapped = [[{"Left": "Right", "Right": "Left"}.get(c, c) for c in row] for row in SIDES]
     points = read_points(workbook(tmp_path, {"Front": swapped}))
-    with pytest.raises(InputError, match="Interchange Left and Right"):
-        merged(points, "double_wishbone_car")
+    refused(InputError, lambda: merged(points, "double_wishbone_car"))
 
 
 @pytest.mark.parametrize("side", ["Left", "Right"])
-def test_a_table_of_one_side(side, tmp_path):
+def test_a_table_of_one_side(side, tmp_path, refused):
     """It is that of a suspension of this side, and mirrored that of the other."""
     y = {"Left": 711.5, "Right": -711.5}[side]
     text = f",{side}\n{HEAD}ball_joint,5,{y},180\n"
     points = read_points(table(tmp_path, text))
     if side == "Left":
-        with pytest.raises(InputError, match="Mirror them: --mirror"):
-            merged(points, "reference_car")
+        refused(InputError, lambda: merged(points, "reference_car"))
     found = merged(points, "reference_car", mirrored=side == "Left")
     new = Suspension.load(write_merged(found, tmp_path / "new.toml"))
     assert new.hardpoints.ball_joint == (5.0, -711.5, 180.0)
 
 
-def test_sheets_of_a_workbook(tmp_path):
+def test_sheets_of_a_workbook(tmp_path, refused):
     rows = (("point", "x [mm]", "y [mm]", "z [mm]"), ("ball_joint", 5, -711.5, 180.0))
     both = {"notes": [("nothing",)], "front": rows, "rear": rows}
-    with pytest.raises(InputError, match="on the sheets 'front' and 'rear'"):
-        read_points(workbook(tmp_path, both))
+    refused(InputError, lambda: read_points(workbook(tmp_path, both)))
     path = workbook(tmp_path, both, hidden="rear")
     assert read_points(path).left_out == ("sheet notes", "sheet rear")
     assert read_points(path, sheet="rear").left_out == ("sheet notes", "sheet front")
-    with pytest.raises(InputError, match=r"no sheet 'raer'. Did you mean rear"):
-        read_points(path, sheet="raer")
-    with pytest.raises(InputError, match="is for workbooks"):
-        read_points(table(tmp_path, HEAD + "a,1,2,3\n"), sheet="rear")
+    refused(
+        InputError,
+        lambda: read_points(path, sheet="raer"),
+        lambda: read_points(table(tmp_path, HEAD + "a,1,2,3\n"), sheet="rear"),
+    )
 
 
 CELLS = [True, "two", "#DIV/0!", "1,5", None, "=1+1", float("inf"), "1_0"]
 
 
 @pytest.mark.parametrize("cell", CELLS, ids=str)
-def test_cells_that_are_no_numbers(cell, tmp_path):
+def test_cells_that_are_no_numbers(cell, tmp_path, refused):
     rows = (("point", "x [mm]", "y [mm]", "z [mm]"), ("ball_joint", 5, cell, 180.0))
-    with pytest.raises(
-        InputError, match=r"row 2, ball_joint: three numbers|not a readable Excel workbook"
-    ):
-        read_points(workbook(tmp_path, {"a": rows}))
+    refused(InputError, lambda: read_points(workbook(tmp_path, {"a": rows})))
 
 
-def test_the_commands(kintrafo, tmp_path):
+def test_the_commands(kintrafo, tmp_path, ends):
     assert kintrafo("export", "reference_car", "--to", "points", "-o", "points.csv")[0] == 0
     code, out, _ = kintrafo("import", "points.csv", "new.toml", "--from", "reference_car")
     assert (code, "read: arm_front" in out) == (0, True)
     assert Suspension.load(tmp_path / "new.toml") == CAR
     (tmp_path / "mine.toml").write_text("mine", encoding="utf-8")
-    code, _, err = kintrafo("import", "points.csv", "mine.toml", "--from", "new.toml")
-    assert (code, "mine.toml" in err) == (2, True)
+    ends(2, "import", "points.csv", "mine.toml", "--from", "new.toml")
     code, _, _ = kintrafo("import", "points.csv", "new.toml", "--from", "new.toml", "--force")
     assert code == 2  # what is read is never replaced
     assert kintrafo("import", "points.txt", "x.toml", "--from", "new.toml")[0] == 2

@@ -163,7 +163,7 @@ def test_numbers_beyond_the_published_ranges_of_manoeuvres_are_errors(name):
             continue
         for end, factor in (("minimum", 0.999), ("maximum", 1.001)):
             if entry.get(end):
-                with pytest.raises(InputError, match=f"{key} = .* allowed"):
+                with pytest.raises(InputError, match=f"{key} = "):
                     handling.load_manoeuvre(name, {key: factor * entry[end]})
 
 

@@ -38,13 +38,12 @@ def test_the_file_says_what_it_describes():
     assert Suspension.from_dict(data) == CAR_OF_THE_PAPER
 
 
-def test_without_the_key_the_hardpoints_show_what_was_forgotten():
+def test_without_the_key_the_hardpoints_show_what_was_forgotten(as_stored):
     data = CAR.to_dict()
     del data["suspension"]
     (problem,) = problems_of(data)
     assert "lower_arm_front" in problem
-    assert "points of a double wishbone suspension" in problem
-    assert 'Add a line `suspension = "double_wishbone"` above the first section.' in problem
+    as_stored(problem)
 
 
 @pytest.mark.parametrize("kind", ["double_wishbon", "multilink", 3, None, ["macpherson"]])
@@ -54,12 +53,13 @@ def test_unknown_kinds_are_refused_with_the_known_ones(kind):
     assert problem.endswith((*(f"{known}?" for known in KINDS), f"{', '.join(KINDS)}."))
 
 
-def test_a_kind_loads_only_its_own_files():
+def test_a_kind_loads_only_its_own_files(refused):
     assert DoubleWishbone.load("double_wishbone_car") == CAR
-    with pytest.raises(InputError, match="a double wishbone suspension is needed here"):
-        DoubleWishbone.load("reference_car")
-    with pytest.raises(InputError, match="a MacPherson suspension is needed here"):
-        MacPherson.from_dict(CAR.to_dict())
+    refused(
+        InputError,
+        lambda: DoubleWishbone.load("reference_car"),
+        lambda: MacPherson.from_dict(CAR.to_dict()),
+    )
 
 
 # -- what it says ---------------------------------------------------------------------------------
@@ -143,7 +143,7 @@ def test_refused(changes, as_stored):
     as_stored(*problems(changes))
 
 
-def test_upper_arm_at_its_dead_centre():
+def test_upper_arm_at_its_dead_centre(as_stored):
     # arms about x, the lower ball joint in the plane of the upper arm
     points = {
         "upper_arm_front": [120.0, -600.0, 600.0],
@@ -152,13 +152,11 @@ def test_upper_arm_at_its_dead_centre():
         "lower_ball_joint": [0.0, -720.0, 200.0],
     }
     (problem,) = problems({f"hardpoints.{name}": point for name, point in points.items()})
-    assert "the knuckle pulls the upper arm with a lever of 0.000 mm" in problem
-    assert "Move lower_ball_joint out of the plane" in problem
+    as_stored(problem)
 
 
-def test_there_are_no_equations_with_a_free_rack():
-    with pytest.raises(InputError, match=r"the rack of a double wishbone suspension is prescribed"):
-        Model(CAR, free_rack=True)
+def test_there_are_no_equations_with_a_free_rack(refused):
+    refused(InputError, lambda: Model(CAR, free_rack=True))
 
 
 @pytest.mark.parametrize(

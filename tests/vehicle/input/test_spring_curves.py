@@ -238,11 +238,10 @@ def test_a_simulation_says_where_a_curve_ends():
     assert not inside.validity
 
 
-def test_a_rate_beside_a_curve_is_no_variable():
+def test_a_rate_beside_a_curve_is_no_variable(refused):
     """A key that a curve replaces is refused by name, in studies, too."""
     car = curved("double_wishbone_car")
-    with pytest.raises(InputError, match="both describe the spring"):
-        car.with_changes({"spring.rate_N_per_m": 60e3})
+    refused(InputError, lambda: car.with_changes({"spring.rate_N_per_m": 60e3}))
     found = variation.sensitivity(car, ["spring.force_at_design_N"], positions=[0.0])
     step = 1.0
     up, down = (
@@ -299,7 +298,7 @@ def test_the_three_ways_to_say_it_are_one():
             assert first == pytest.approx(second, rel=1e-11)
 
 
-def test_a_macpherson_spring_stands_in_one_place():
+def test_a_macpherson_spring_stands_in_one_place(refused):
     car = Suspension.load("reference_car")
     length = 1e3 * car.hardpoints.distance("ball_joint", "strut_top")
     rate = with_spring("reference_car", rate_N_per_m=25e3, free_length_mm=length + 100.0)
@@ -308,11 +307,9 @@ def test_a_macpherson_spring_stands_in_one_place():
     assert rate.parameters()["spring_free_slide"] == pytest.approx(1e-3 * slide, abs=1e-12)
     assert curved("reference_car").beyond_the_paper() == ["[spring] force_N"]
     both = car.to_dict() | {"spring": {"rate_N_per_m": 25e3, "free_length_mm": 700.0}}
-    with pytest.raises(InputError, match=r"\[strut\] spring_rate_N_per_m and \[spring\] both"):
-        Suspension.from_dict(both)
+    refused(InputError, lambda: Suspension.from_dict(both))
     strut = {k: v for k, v in car.to_dict()["strut"].items() if not k.startswith("spring_")}
-    with pytest.raises(InputError, match="spring_rate_N_per_m is missing"):
-        Suspension.from_dict(car.to_dict() | {"strut": strut})
+    refused(InputError, lambda: Suspension.from_dict(car.to_dict() | {"strut": strut}))
 
 
 GOOD = {"compression_mm": [0.0, 50.0, 100.0], "force_N": [0.0, 2000.0, 6000.0]}
@@ -419,15 +416,16 @@ def test_springs_of_a_rigid_axle():
         )
 
 
-def test_what_varies_of_a_spring_by_a_curve_is_said():
+def test_what_varies_of_a_spring_by_a_curve_is_said(refused):
     car = curved("double_wishbone_car")
     with pytest.warns(
         RuntimeWarning,
         match=r"spring.compression_mm, spring.force_N: lists, such as a .* if spring.force_N is",
     ):
         variation.sensitivity(car, ["spring"], positions=[0.0])
-    with pytest.raises(InputError, match=r"spring.compression_mm is a list, such as a curve"):
-        variation.sensitivity(car, ["spring.compression_mm"], positions=[0.0])
+    refused(
+        InputError, lambda: variation.sensitivity(car, ["spring.compression_mm"], positions=[0.0])
+    )
 
 
 def scaled_by(car, factor):

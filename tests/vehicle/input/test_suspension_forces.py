@@ -109,7 +109,7 @@ def test_ways_to_say_where_the_spring_is_free():
     assert preloaded.parameters()["spring_free_slide"] == pytest.approx(-0.02, abs=1e-15)
 
 
-def test_spring_with_seats_of_its_own():
+def test_spring_with_seats_of_its_own(refused):
     seats = {"spring_top": [-30.0, -580.0, 790.0], "spring_seat": [10.0, -650.0, 500.0]}
     car = changed(
         hardpoints=seats, strut={"spring_free_slide_mm": None, "spring_force_at_design_N": 3200.0}
@@ -119,17 +119,20 @@ def test_spring_with_seats_of_its_own():
     distance = np.linalg.norm(np.subtract(*seats.values())) / 1000
     assert signals["spring_length"] == pytest.approx(distance, rel=1e-15)
     assert signals["spring_force"] == pytest.approx(3200.0, rel=1e-12)
-    with pytest.raises(InputError, match="concentric with the strut"):
-        changed(hardpoints=seats)
+    refused(InputError, lambda: changed(hardpoints=seats))
 
 
-def test_damping_of_the_tyre_follows_the_road():
+def test_damping_of_the_tyre_follows_the_road(refused):
     model = Model(changed(tyre={"damper_rate_N_s_per_m": 150.0}))
     still = model.signal("tyre_force", model.design_state)
     rising = model.signal("tyre_force", model.design_state, model.inputs({"road_velocity": 2.0}))
     assert rising - still == pytest.approx(300.0, rel=1e-12)  # no camber at design
-    with pytest.raises(InputError, match="follows from 'road_height'"):
-        kintrafo.simulate(model, (0.0, 0.1), model.design_state, inputs={"road_velocity": 1.0})
+    refused(
+        InputError,
+        lambda: kintrafo.simulate(
+            model, (0.0, 0.1), model.design_state, inputs={"road_velocity": 1.0}
+        ),
+    )
 
 
 @pytest.mark.parametrize(

@@ -95,8 +95,10 @@ class TestInTheAir:
         result = simulate(model, (0.0, 0.12), equilibrium(model), inputs=ROAD, events=event)
         assert result.t_events[0].size == 0
 
-    def test_an_event_that_stays_at_zero_is_named(self, model):
+    def test_an_event_that_stays_at_zero_is_named(self, model, refused):
         pytest.importorskip("kintrafo.simulation.native._sundials")
         event = SignalEvent("tyre_force", 0.0)
-        with pytest.raises(SimulationError, match="event stays at zero"):
-            simulate(model, (0.0, 1.0), equilibrium(model), inputs=ROAD, events=event)
+        refused(
+            SimulationError,
+            lambda: simulate(model, (0.0, 1.0), equilibrium(model), inputs=ROAD, events=event),
+        )

@@ -101,7 +101,7 @@ def test_wheel_swings_about_the_hinge(name):
             np.testing.assert_allclose(found[quantity].values[i], expected, **near)
 
 
-def test_reach_ends_where_the_wheel_turns_back():
+def test_reach_ends_where_the_wheel_turns_back(refused):
     """The highest wheel centre: amplitude of a + b cos + c sin."""
     start, axis = hinge(CAR)
     arm = CAR.hardpoints.metres("wheel_center") - start
@@ -109,9 +109,7 @@ def test_reach_ends_where_the_wheel_turns_back():
     highest = (start + along)[2] + np.hypot((arm - along)[2], np.cross(axis, arm)[2])
     # 1e-12 rad before it, of a parabola
     assert travel_range(Model(CAR)).height[1] == pytest.approx(highest, abs=1e-13)
-    with pytest.raises(PositionError, match="out of reach") as refused:
-        state_at_height(Model(CAR), highest + 0.001)
-    assert "rack" not in str(refused.value)
+    refused(PositionError, lambda: state_at_height(Model(CAR), highest + 0.001))
 
 
 # -- not steered --------------------------------------------------------------------------------
@@ -129,13 +127,11 @@ def test_what_belongs_to_steering_is_not_there():
         assert word not in words.replace("bracket", "").replace("half_track", ""), word
 
 
-def test_free_rack_a_section_and_a_bush_of_it_are_refused():
-    with pytest.raises(InputError, match="is not steered"):
-        Model(CAR, free_rack=True)
+def test_free_rack_a_section_and_a_bush_of_it_are_refused(refused):
+    refused(InputError, lambda: Model(CAR, free_rack=True))
     with pytest.raises(InputError, match="rack"):
         Suspension.from_dict(CAR.to_dict() | {"rack": {"axis": [0.0, 1.0, 0.0]}})
-    with pytest.raises(InputError, match="'rack' is not known"):
-        CAR.with_changes({"bushings": {"rack": {"axial_N_per_mm": 1e4}}})
+    refused(InputError, lambda: CAR.with_changes({"bushings": {"rack": {"axial_N_per_mm": 1e4}}}))
 
 
 def test_comparison_shows_what_both_have():
@@ -173,14 +169,18 @@ BAR = {
 REAR = {"axle": "rear", "side": CAR}
 
 
-def test_axle_has_no_rack_between_its_sides():
+def test_axle_has_no_rack_between_its_sides(refused):
     axle = Axle.from_dict(REAR | {"anti_roll_bar": BAR})
     found = flat(characteristics.over(axle, "bump", TRAVELS))
     one = characteristics.over(Model(CAR), "travel", TRAVELS)
     np.testing.assert_allclose(found["camber_left"], one["camber"], rtol=0.0, atol=1e-13)
     assert "rack_position" not in found.coords
-    with pytest.raises(InputError, match="not steered"):
-        Axle.from_dict(REAR | {"steering": {"angle_deg": [-90.0, 90.0], "rack_mm": [-9.0, 9.0]}})
+    refused(
+        InputError,
+        lambda: Axle.from_dict(
+            REAR | {"steering": {"angle_deg": [-90.0, 90.0], "rack_mm": [-9.0, 9.0]}}
+        ),
+    )
     held = loads.static(axle, {"corner": {"contact_g": [0.0, 0.5, 1.0]}}, static_load=3400.0)
     assert "rack" not in held["part"].values
     assert "rack_force" not in held

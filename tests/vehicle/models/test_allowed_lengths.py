@@ -136,12 +136,11 @@ def test_many_cars_say_so_each():
     assert found["valid"].values.tolist() == [False, True]
 
 
-def test_ends_are_not_swept():
+def test_ends_are_not_swept(refused):
     """All cars of a sweep have the ends of one."""
     car = Suspension.load("double_wishbone_car").with_changes({"damper.length_min_mm": 380.0})
     values = {"damper.length_min_mm": [370.0, 380.0]}
-    with pytest.raises(InputError, match="length_min_mm and length_max_mm end motions"):
-        variation.sweep(car, values, Scenario(inputs=STEP))
+    refused(InputError, lambda: variation.sweep(car, values, Scenario(inputs=STEP)))
 
 
 def test_an_axle_says_so_of_the_side():
@@ -154,7 +153,7 @@ def test_an_axle_says_so_of_the_side():
     assert told[0].startswith("the left strut is beyond its least length, [strut] length_min_mm")
 
 
-def test_a_rigid_axle_says_so_and_does_not_rest_beyond():
+def test_a_rigid_axle_says_so_and_does_not_rest_beyond(refused):
     axle = RigidAxle.load("rigid_axle")
     plain = RigidAxleModel(axle)
     length = float(plain.signal("left_damper_length", equilibrium(plain)))
@@ -162,5 +161,4 @@ def test_a_rigid_axle_says_so_and_does_not_rest_beyond():
     raised = {"left_road_height": STEP["road_height"]}
     found = simulate(model, (0.0, 0.3), equilibrium(model), inputs=raised)
     assert "left_damper_length" in [one.bound.signal for one in found.validity]
-    with pytest.raises(PositionError, match="the left damper is beyond its least length"):
-        equilibrium(model, road_height={"left": 0.04, "right": 0.04})
+    refused(PositionError, lambda: equilibrium(model, road_height={"left": 0.04, "right": 0.04}))

@@ -94,9 +94,8 @@ def test_a_mistake_is_a_problem(name, changes, what, why):
     assert any(what in text and why in text for text in told), told
 
 
-def test_a_strut_on_the_other_side_is_reported_by_its_sign():
-    with pytest.raises(InputError, match=r"strut_top = .*different sides.*correct the sign of y"):
-        changed(REFERENCE, with_sign(REFERENCE, "y", "strut_top"))
+def test_a_strut_on_the_other_side_is_reported_by_its_sign(refused):
+    refused(InputError, lambda: changed(REFERENCE, with_sign(REFERENCE, "y", "strut_top")))
 
 
 def test_metres_among_millimetres():
@@ -119,10 +118,9 @@ def test_a_checkup_reports_it():
     assert any("sign of y" in text for text in found.problems)
 
 
-def test_a_joint_on_the_axis_of_steering_is_refused_by_name():
+def test_a_joint_on_the_axis_of_steering_is_refused_by_name(refused):
     on_axis = [-31.999999678024796, -580.0000007297222, 814.9999990761419]
-    with pytest.raises(InputError, match=r"tie_rod_inner = .* lies .* mm from the line through"):
-        changed("offset_strut_car", {"hardpoints.tie_rod_inner": on_axis})
+    refused(InputError, lambda: changed("offset_strut_car", {"hardpoints.tie_rod_inner": on_axis}))
 
 
 # -- friction -------------------------------------------------------------------------------------

@@ -65,13 +65,8 @@ def test_range_ends_where_the_loop_or_the_wheel_turns_back():
 
 
 @pytest.mark.parametrize("beyond", [-0.5, 0.7])
-def test_height_out_of_reach_names_range_and_remedy(beyond):
-    with pytest.raises(
-        PositionError, match=r"out of reach: from -?\d.* mm .* to \d.* mm"
-    ) as caught:
-        state_at_height(MODEL, beyond)
-    assert f"{beyond * 1e3:g} mm" in str(caught.value)
-    assert "Choose a height within this range" in str(caught.value)
+def test_height_out_of_reach_names_range_and_remedy(beyond, refused):
+    refused(PositionError, lambda: state_at_height(MODEL, beyond))
 
 
 def test_equilibrium_of_the_reference_car_is_at_300_mm():
@@ -100,14 +95,14 @@ def test_equilibrium_with_a_free_rack_holds_the_rack():
     assert np.abs(accelerations).max() < 1e-8
 
 
-def test_no_equilibrium_says_what_the_moments_are():
-    with pytest.raises(PositionError, match=r"no stable equilibrium .* N m"):
-        equilibrium(MODEL, strut_force=1e7)  # 1e6 N rests just before a dead point
+def test_no_equilibrium_says_what_the_moments_are(refused):
+    refused(
+        PositionError, lambda: equilibrium(MODEL, strut_force=1e7)
+    )  # 1e6 N rests just before a dead point
 
 
-def test_rack_beyond_the_dead_point_is_refused():
-    with pytest.raises(PositionError, match=r"rack cannot be at 500 mm.*cannot reach"):
-        travel_range(MODEL, rack_position=0.5)
+def test_rack_beyond_the_dead_point_is_refused(refused):
+    refused(PositionError, lambda: travel_range(MODEL, rack_position=0.5))
 
 
 def test_unknown_state_element_is_refused():
@@ -184,11 +179,10 @@ def test_the_range_in_the_message_is_within_reach():
 
 
 @pytest.mark.parametrize("wrong", [np.nan, np.inf])
-def test_heights_and_racks_that_are_no_numbers_are_refused(wrong):
-    with pytest.raises(InputError, match=r"height = .* finite number"):
-        arm_angles(MODEL, [0.3, wrong])
-    with pytest.raises(InputError, match=r"rack_position = .* finite number"):
-        arm_angles(MODEL, 0.3, wrong)
+def test_heights_and_racks_that_are_no_numbers_are_refused(wrong, refused):
+    refused(
+        InputError, lambda: arm_angles(MODEL, [0.3, wrong]), lambda: arm_angles(MODEL, 0.3, wrong)
+    )
 
 
 def test_no_heights_make_no_angles():
@@ -198,7 +192,7 @@ def test_no_heights_make_no_angles():
 # -- the ends of the reach ------------------------------------------------------------------------
 
 
-def test_upper_end_is_the_dead_point_of_the_tie_rod():
+def test_upper_end_is_the_dead_point_of_the_tie_rod(refused):
     """There the rod lies in the plane of strut axis and steering arm."""
     states, inputs = at_rest(MODEL, REACH.arm_angle[1])
     points = hardpoints(MODEL, states, inputs)
@@ -209,8 +203,7 @@ def test_upper_end_is_the_dead_point_of_the_tie_rod():
     # its square is what has to be positive; it changes by some 0.1 m^2/rad, and the end is 1e-12
     # rad before the dead point
     assert abs(volume) < 1e-6
-    with pytest.raises(ClosureError, match="dead point"):
-        MODEL.signals(*at_rest(MODEL, REACH.arm_angle[1] - 1e-9))
+    refused(ClosureError, lambda: MODEL.signals(*at_rest(MODEL, REACH.arm_angle[1] - 1e-9)))
 
 
 def test_lower_end_is_where_the_wheel_turns_back():
@@ -263,20 +256,17 @@ def test_equilibrium_under_a_wheel_load(load, rack):
 
 
 @pytest.mark.parametrize("load", [-1.0, np.nan, np.inf])
-def test_loads_that_no_road_exerts_are_refused(load):
-    with pytest.raises(InputError, match=r"wheel_load = .* N: a finite number of 0 N or more"):
-        equilibrium(MODEL, wheel_load=load)
+def test_loads_that_no_road_exerts_are_refused(load, refused):
+    refused(InputError, lambda: equilibrium(MODEL, wheel_load=load))
 
 
-def test_a_tyre_without_stiffness_carries_no_load():
+def test_a_tyre_without_stiffness_carries_no_load(refused):
     soft = Model(MODEL.suspension.with_changes({"tyre.rate_N_per_m": 0.0}))
-    with pytest.raises(InputError, match=r"\[tyre\] rate_N_per_m = 0"):
-        equilibrium(soft, wheel_load=3000.0)
+    refused(InputError, lambda: equilibrium(soft, wheel_load=3000.0))
 
 
-def test_a_load_without_equilibrium_is_refused():
-    with pytest.raises(PositionError, match="no stable equilibrium"):
-        equilibrium(MODEL, wheel_load=3000.0, strut_force=1e6)
+def test_a_load_without_equilibrium_is_refused(refused):
+    refused(PositionError, lambda: equilibrium(MODEL, wheel_load=3000.0, strut_force=1e6))
 
 
 @pytest.mark.parametrize("name", ["reference_car", "offset_strut_car", "double_wishbone_car"])
@@ -292,12 +282,11 @@ def test_many_racks_are_as_each_of_them(name):
     np.testing.assert_array_equal(together[some], alone)
 
 
-def test_one_of_many_out_of_reach_is_refused_by_name():
+def test_one_of_many_out_of_reach_is_refused_by_name(refused):
     racks = np.linspace(-0.06, 0.06, 1001)
     heights = np.full(racks.size, 0.3)
     heights[500] = 1.0
-    with pytest.raises(PositionError, match="wheel height 1000 mm is out of reach"):
-        arm_angles(Model("reference_car"), heights, racks)
+    refused(PositionError, lambda: arm_angles(Model("reference_car"), heights, racks))
 
 
 LOADED = {"wheel_load": 3000.0, "rack_position": 0.01, "strut_force": 200.0}
@@ -339,7 +328,7 @@ class TestStatesOfRestKnowTheirInputs:
         for other in (np.array(rest), rest[:2], [*rest]):
             assert inputs_of(other, MODEL.names_of_states) is None
 
-    def test_another_model_refuses_them(self):
+    def test_another_model_refuses_them(self, refused):
         """Its coordinates mean something else, however many they are."""
         other = Model("double_wishbone_car")
         rest = equilibrium(MODEL, **LOADED)
@@ -350,7 +339,7 @@ class TestStatesOfRestKnowTheirInputs:
             lambda: simulate(other, (0.0, 0.1), rest),
             lambda: linearise(other, rest),
         ):
-            with pytest.raises(InputError, match=r"beta1, .* this model \(arm_angle, "):
+            with refused(InputError):
                 use()
         assert simulate(other, (0.0, 1e-3), np.array(other.design_state)).success
 
@@ -409,7 +398,7 @@ def test_positions_of_an_axle_are_those_of_its_sides():
             np.testing.assert_array_equal(found[name].sel(wheel=side), alone[name])
 
 
-def test_positions_of_a_rigid_axle_keep_its_rods_lengths():
+def test_positions_of_a_rigid_axle_keep_its_rods_lengths(refused):
     axle, travels = RigidAxle.load("rigid_axle"), np.array([-0.03, 0.0, 0.05])
     found = sweep.positions(axle, travels)
     for name, (chassis, beam) in axle.ends().items():
@@ -424,5 +413,4 @@ def test_positions_of_a_rigid_axle_keep_its_rods_lengths():
     np.testing.assert_allclose(rise, np.stack([travels, travels]), atol=1e-13)
     camber = characteristics.over(axle, "bump", travels)["camber"]
     np.testing.assert_array_equal(found["camber"], camber)
-    with pytest.raises(InputError, match="rack: its wheels are not steered"):
-        sweep.positions(axle, travels, 0.01)
+    refused(InputError, lambda: sweep.positions(axle, travels, 0.01))

@@ -82,7 +82,7 @@ def test_characteristics_and_compare_report_and_draw(goals, tmp_path):
     ]
 
 
-def test_a_chapter_of_the_report_has_them(goals):
+def test_a_chapter_of_the_report_has_them(goals, refused):
     wanted = variation.goals(variation.read(goals))
     chapter = goals_chapter(Model("reference_car"), wanted)
     assert [row[:2] for row in chapter.tables[0].rows] == [
@@ -94,10 +94,11 @@ def test_a_chapter_of_the_report_has_them(goals):
         "Curves over the rack with targets and limits",
     ]
     assert chapter.words[0] == "0 of 2 are met, 2 missed."
-    with pytest.raises(InputError, match="goals is empty"):
-        goals_chapter(Model("reference_car"), [])
-    with pytest.raises(InputError, match="an Axle, or a RigidAxle is needed"):
-        goals_chapter("reference_car", wanted)
+    refused(
+        InputError,
+        lambda: goals_chapter(Model("reference_car"), []),
+        lambda: goals_chapter("reference_car", wanted),
+    )
 
 
 @pytest.mark.parametrize("file", ["reference_axle", "rigid_axle"])
@@ -271,7 +272,7 @@ OF_AXLES = ("bump", "roll", "left", "right")
 
 @pytest.mark.usefixtures("one_picture")
 @pytest.mark.parametrize("file", ["reference_axle", "rigid_axle"])
-def test_chapters_of_axles_have_what_is_wanted(file, figures):
+def test_chapters_of_axles_have_what_is_wanted(file, figures, refused):
     """Curves that they have not else are added, and positions beyond the usual ones."""
     at = {"at_mm": [-85.0, 40.0]}
     described = {
@@ -307,20 +308,21 @@ def test_chapters_of_axles_have_what_is_wanted(file, figures):
         assert np.diff(along).max() == pytest.approx(np.median(np.diff(along)), rel=1e-6)
     marked = [key for key, axes in figures.items() if axes.get_legend_handles_labels()[1]]
     assert len(marked) == len(expected)
-    with pytest.raises(InputError, match="there is no curve of ackermann_left"):
-        axle_chapter(axle, [Limit("ackermann_left", "bump", np.zeros(1), 0.0, 1.0)])
+    refused(
+        InputError,
+        lambda: axle_chapter(axle, [Limit("ackermann_left", "bump", np.zeros(1), 0.0, 1.0)]),
+    )
     figures.clear()
     axle_chapter(axle)
     assert not any(axes.get_legend_handles_labels()[1] for axes in figures.values())
     assert not any(title.startswith("The right wheel moves") for title, _ in figures)
 
 
-def test_goals_over_one_axis_are_not_mixed_up():
+def test_goals_over_one_axis_are_not_mixed_up(refused):
     limit = {"camber_left": [{"most": 1.0}, {"most": 2.0, "over": "left"}]}
     wanted = variation.goals({"limits": limit}, ["bump", "left"])
     dataset = characteristics.over(Axle.load("reference_axle"), "bump", [-0.01, 0.01])
-    with pytest.raises(InputError, match="camber over bump and left have one axis"):
-        curves.figure(dataset, ["camber"], goals=wanted)
+    refused(InputError, lambda: curves.figure(dataset, ["camber"], goals=wanted))
     assert curves.figure(dataset, ["camber"], goals=wanted[:1])
 
 
@@ -371,7 +373,7 @@ def test_axles_are_compared_with_goals(tmp_path):
             assert goal["met"] == (beyond <= 0.0)
 
 
-def test_cars_beside_a_measurement_are_judged(goals, tmp_path):
+def test_cars_beside_a_measurement_are_judged(goals, tmp_path, as_stored):
     rig = tmp_path / "rig.csv"
     rig.write_text("wheel_travel [mm],toe [deg]\n-40,-0.1\n0,0\n40,0.1\n", encoding="utf-8")
     asked = ["compare", str(rig), "reference_car", "--goals", str(goals)]
@@ -381,7 +383,7 @@ def test_cars_beside_a_measurement_are_judged(goals, tmp_path):
     rig.write_text(held, encoding="utf-8")
     shown = called(*asked)
     assert shown.exit_code == 2
-    assert "the rack in its middle" in " ".join(shown.output.replace("│", " ").split())
+    as_stored(" ".join(shown.output.replace("│", " ").split()))
 
 
 def test_goals_beyond_the_curves_are_refused_where_they_are_drawn(goals, tmp_path):
@@ -395,9 +397,9 @@ def test_goals_beyond_the_curves_are_refused_where_they_are_drawn(goals, tmp_pat
     assert called(*asked).exit_code == 0
 
 
-def test_goals_that_are_not_looked_at_are_named(goals):
+def test_goals_that_are_not_looked_at_are_named(goals, as_stored):
     shown = called("compare", "reference_car", "offset_strut_car", "--goals", str(goals))
-    assert "not about these curves: scrub_radius over rack" in " ".join(shown.stderr.split())
+    as_stored(" ".join(shown.stderr.split()))
 
 
 @pytest.mark.parametrize(
@@ -419,7 +421,7 @@ def test_where_goals_mean_nothing_they_are_refused(goals, words, text):
     assert text in " ".join(told.replace("│", " ").split())
 
 
-def test_goals_have_a_door():
+def test_goals_have_a_door(refused):
     car = Suspension.load("reference_car")
     makers = [
         lambda wrong: axle_chapter(Axle.load("reference_axle"), wrong),
@@ -429,7 +431,7 @@ def test_goals_have_a_door():
     ]
     for wrong in (3, [3], "toe", None, {"toe": 1}):
         for make in makers:
-            with pytest.raises(InputError, match="a list of targets and limits"):
+            with refused(InputError):
                 make(wrong)
     with pytest.raises(InputError, match="no_such"):
         variation.goals({"targets": {"no_such": {"value": 0.0, "within": 1.0}}})

@@ -173,18 +173,22 @@ def test_a_wheel_of_an_axle_moves_as_by_itself():
             )
 
 
-def test_goals_that_nothing_reaches_are_refused_in_words():
+def test_goals_that_nothing_reaches_are_refused_in_words(refused):
     """And at once: curves go on as far as goals, in steps of some millimetres."""
     axle = Axle.load("reference_axle")
     far = {"camber_left": {"at_mm": [0, 1e15], "value": 0.0, "within": 0.3}}
-    with pytest.raises(PositionError, match="is out of reach"):
-        kintrafo.report.axle_chapter(axle, variation.goals({"targets": far}, OF_AXLES))
+    refused(
+        PositionError,
+        lambda: kintrafo.report.axle_chapter(axle, variation.goals({"targets": far}, OF_AXLES)),
+    )
 
 
-def test_goals_of_a_report_have_a_door(tmp_path):
+def test_goals_of_a_report_have_a_door(tmp_path, refused):
     path = tmp_path / "a.html"
     for wrong in (None, 3, [3], "toe", {"toe": 1}):
-        with pytest.raises(InputError, match="goals: a list of targets and limits"):
+        with refused(InputError):
             kintrafo.report.write(CAR, path, goals=wrong)
-    with pytest.raises(InputError, match="only the report of a suspension has them"):
-        kintrafo.report.write(System(four_bar), path, goals=variation.goals(DESCRIBED))
+    refused(
+        InputError,
+        lambda: kintrafo.report.write(System(four_bar), path, goals=variation.goals(DESCRIBED)),
+    )

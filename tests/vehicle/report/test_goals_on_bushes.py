@@ -91,20 +91,21 @@ def test_a_wheel_rate_at_the_contact_is_another():
     assert elastokinematics_chapter(dataset, goals=rate) == elastokinematics_chapter(dataset)
 
 
-def test_goals_about_a_turned_rack_are_refused():
+def test_goals_about_a_turned_rack_are_refused(refused):
     turned = compliance.elastokinematics(CAR, BUSHES, along=AT, rack_position=0.01)
     toe = wanted(("travel",), toe=TOE)
-    with pytest.raises(InputError, match="rack in its middle, and here it is at 10 mm"):
-        elastokinematics_chapter(turned, goals=toe)
+    refused(InputError, lambda: elastokinematics_chapter(turned, goals=toe))
     assert elastokinematics_chapter(turned).tables
     both = compliance.elastokinematics(AXLE, BUSHES, "bump", AT, rack_position=-0.01)
-    with pytest.raises(InputError, match="here it is at -10 mm"):
-        elastokinematics_chapter(both, goals=wanted(OF_AXLES, toe_left=TOE))
+    refused(
+        InputError, lambda: elastokinematics_chapter(both, goals=wanted(OF_AXLES, toe_left=TOE))
+    )
     del turned.attrs["over"]
-    with pytest.raises(InputError, match="has no attrs"):
-        elastokinematics_chapter(turned, goals=toe)
-    with pytest.raises(InputError, match="goals: a list of targets and limits"):
-        elastokinematics_chapter(turned, goals=["toe"])
+    refused(
+        InputError,
+        lambda: elastokinematics_chapter(turned, goals=toe),
+        lambda: elastokinematics_chapter(turned, goals=["toe"]),
+    )
 
 
 @pytest.mark.usefixtures("coarse_report", "one_picture")

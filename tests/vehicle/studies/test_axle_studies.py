@@ -116,13 +116,12 @@ def test_a_steered_axle_is_studied_over_its_steering(name, over, end):
     np.testing.assert_allclose(found["ackermann_error"].values[0], by_differences, rtol=1e-4)
 
 
-def test_an_axle_without_the_ratio_of_its_steering_is_studied_over_the_rack():
+def test_an_axle_without_the_ratio_of_its_steering_is_studied_over_the_rack(refused):
     axle = load("bmw_e90_rear_axle")
     place = "side.hardpoints.wheel_center.z"
     how = {"names": ["camber_left"], "positions": [0.0]}
     assert variation.sensitivity(axle, [place], over="rack", **how)["rack_position"].size == 1
-    with pytest.raises(InputError, match="over 'steer' is not known"):
-        variation.sensitivity(axle, [place], over="steer", **how)
+    refused(InputError, lambda: variation.sensitivity(axle, [place], over="steer", **how))
 
 
 def test_a_grid_of_axles_goes_over_a_road():
@@ -149,6 +148,7 @@ def test_what_an_axle_does_not_have_is_refused(given, refused):
     refused(InputError, lambda: variation.sensitivity(AXLE, **({"positions": [0.0]} | given)))
 
 
-def test_the_file_of_a_rigid_axle_has_no_sides():
-    with pytest.raises(InputError, match=r"side\.hardpoints is neither a number"):
-        variation.sensitivity(RigidAxle.load("rigid_axle"), ["side.hardpoints"])
+def test_the_file_of_a_rigid_axle_has_no_sides(refused):
+    refused(
+        InputError, lambda: variation.sensitivity(RigidAxle.load("rigid_axle"), ["side.hardpoints"])
+    )

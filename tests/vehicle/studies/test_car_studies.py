@@ -183,22 +183,19 @@ def test_a_ride_comes_to_its_targets():
     assert verdict.over == "speed:road=C"
 
 
-@pytest.mark.parametrize(
-    ("car", "over", "words"),
-    [
-        (DRIVES, f"{TURNS}:radius_m=60,speed_km_per_h=80", "one of them is constant"),
-        (DRIVES, f"{TURNS}:radius=60", "radius_m"),
-        (DRIVES, f"{TURNS}:radius_m=sixty", "radius_m"),
-        (DRIVES, f"{TURNS}:radius_m", "NAME:OPTION=VALUE"),
-        (DRIVES, "heave:radius_m=60", "NAME:OPTION=VALUE"),
-        (QUARTER, "speed:road=Z", "A, B, C"),
-        (QUARTER, "speed:seat=driver", r"\[seats.NAME\]"),
-        (QUARTER, TURNS, "speed"),
-    ],
-)
-def test_options_of_axes_that_cannot_be_are_refused(car, over, words):
-    with pytest.raises(InputError, match=words):
-        variation.sensitivity(car, ["body.mass_kg"], over=over)
+def test_options_of_axes_that_cannot_be_are_refused(refused):
+    for car, over in (
+        (DRIVES, f"{TURNS}:radius_m=60,speed_km_per_h=80"),
+        (DRIVES, f"{TURNS}:radius=60"),
+        (DRIVES, f"{TURNS}:radius_m=sixty"),
+        (DRIVES, f"{TURNS}:radius_m"),
+        (DRIVES, "heave:radius_m=60"),
+        (QUARTER, "speed:road=Z"),
+        (QUARTER, "speed:seat=driver"),
+        (QUARTER, TURNS),
+    ):
+        with refused(InputError):
+            variation.sensitivity(car, ["body.mass_kg"], over=over)
 
 
 def test_a_car_that_does_not_move_is_on_no_radius():
@@ -267,19 +264,21 @@ def test_cars_are_compared():
     assert found["toe"].dims == ("data_set", "wheel", "body_heave")
 
 
-@pytest.mark.parametrize(
-    ("study", "error", "words"),
-    [
-        (lambda: variation.sensitivity(RIDES, [ROD], over=TURNS), InputError, "heave, pitch, roll"),
-        (lambda: variation.sensitivity(DRIVES, [MASS], over=TURNS, positions=[30.0]),
-         InputError, "no steady turn above"),
-        (lambda: variation.sensitivity(RIDES, [ROD], held="height"), InputError, r"\[bushings\]"),
-        (lambda: variation.sweep(RIDES, {MASS: [1.0]}), InputError, "this is a whole car"),
-        (lambda: variation.judge(RIDES, variation.goals(
-            {"limits": {"toe_front_left": {"over": TURNS, "most": 1.0}}}, ["heave", TURNS])),
-         InputError, "toe_front_left"),
-    ],
-)  # fmt: skip
-def test_what_a_car_has_not_is_refused(study, error, words):
-    with pytest.raises(error, match=words):
-        study()
+def test_what_a_car_has_not_is_refused(refused):
+    for study, error in (
+        (lambda: variation.sensitivity(RIDES, [ROD], over=TURNS), InputError),
+        (lambda: variation.sensitivity(DRIVES, [MASS], over=TURNS, positions=[30.0]), InputError),
+        (lambda: variation.sensitivity(RIDES, [ROD], held="height"), InputError),
+        (lambda: variation.sweep(RIDES, {MASS: [1.0]}), InputError),
+        (
+            lambda: variation.judge(
+                RIDES,
+                variation.goals(
+                    {"limits": {"toe_front_left": {"over": TURNS, "most": 1.0}}}, ["heave", TURNS]
+                ),
+            ),
+            InputError,
+        ),
+    ):
+        with refused(error):
+            study()

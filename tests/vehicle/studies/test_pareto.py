@@ -131,7 +131,7 @@ def test_what_weights_find_lies_at_the_front(front, costs, within):
     assert np.abs(costs - best).max(axis=1).min() < 0.1
 
 
-def test_what_matters_may_be_left_out_and_plays_no_part():
+def test_what_matters_may_be_left_out_and_plays_no_part(refused):
     found = [
         variation.pareto(
             CAR,
@@ -144,8 +144,7 @@ def test_what_matters_may_be_left_out_and_plays_no_part():
         for within in ({}, {"within": 0.02}, {"within": 500.0})
     ]
     assert all(other.identical(found[0]) for other in found)
-    with pytest.raises(InputError, match="within is missing, in deg"):
-        variation.goals({"targets": {"toe": {"value": 0.0}}})
+    refused(InputError, lambda: variation.goals({"targets": {"toe": {"value": 0.0}}}))
 
 
 def test_the_compromise_is_nearest_to_the_best_of_both(front, costs):
@@ -200,26 +199,24 @@ def test_what_cannot_be_built_is_beyond_all_limits():
     assert parts[-1] == pytest.approx(1.0)
 
 
-def test_limits_that_cannot_be_kept():
+def test_limits_that_cannot_be_kept(refused):
     far = SCRUB | {"bump_steer": {"most": -1.0}}
     found = variation.pareto(CAR, FREE, TOE, maximise=HEIGHT, limits=far, **SHORT)
     assert not found.success
     assert "the nearest one not those of: bump_steer" in found.message
     assert not found.keeps_limits
     assert (found.moved, found.compromise, found.dataset.sizes["member"]) == ((), 0, 0)
-    with pytest.raises(InputError, match="the front has none"):
-        found.suspension(1)
+    refused(InputError, lambda: found.suspension(1))
 
 
-def test_values_that_move_nothing_are_named():
+def test_values_that_move_nothing_are_named(refused):
     idle = "bodies.wheel.mass_kg"
     found = variation.pareto(CAR, {ROD: 5.0, idle: 1.0}, TOE, maximise=HEIGHT, **SHORT)
     assert f"without effect on an objective: {idle}" in found.message
-    with pytest.raises(InputError, match=rf"no value has an effect on an objective: {idle}"):
-        variation.pareto(CAR, {idle: 1.0}, TOE, maximise=HEIGHT, **SHORT)
+    refused(InputError, lambda: variation.pareto(CAR, {idle: 1.0}, TOE, maximise=HEIGHT, **SHORT))
 
 
-def test_objectives_that_agree_have_one_best_car():
+def test_objectives_that_agree_have_one_best_car(refused):
     """Both want the camber of the file at the end of its range."""
     camber = {"camber": [{"at_mm": [-30.0, 30.0]}, {"over": "rack", "at_mm": 20.0}]}
     found = variation.pareto(CAR, {"wheel.camber_deg": 1.0}, minimise=camber, **SHORT)
@@ -228,8 +225,7 @@ def test_objectives_that_agree_have_one_best_car():
     assert len(found.moved) == found.compromise == 1
     assert found.message.startswith("one suspension is the best in every objective")
     assert found.dataset[names[1]].attrs["long_name"] == "camber over the rack"
-    with pytest.raises(InputError, match=r"member = 2: a whole number, 1 to 1"):
-        found.suspension(2)
+    refused(InputError, lambda: found.suspension(2))
 
 
 def test_several_objectives_of_one_kind_are_distinguished_and_drawn(tmp_path):
@@ -262,7 +258,7 @@ def test_the_chosen_member_is_written(kintrafo, tmp_path):
 
 
 @pytest.mark.parametrize("member", [0, 5, 4])
-def test_a_member_that_is_not_there(kintrafo, tmp_path, member):
+def test_a_member_that_is_not_there(kintrafo, tmp_path, member, as_stored):
     """Four cars of a generation have no fifth member, and need not have a fourth."""
     study = STUDY.replace("[limits.scrub_radius]\nmost = 21.0", "[limits.toe]\nmost = 0.001")
     (tmp_path / "s.toml").write_text(study, encoding="utf-8")
@@ -271,7 +267,7 @@ def test_a_member_that_is_not_there(kintrafo, tmp_path, member):
         "-o", "a.csv", "--plot", "a.svg", "--member-file", "a.toml",
     )  # fmt: skip
     assert (code, out) == (2, "")
-    assert f"--member {member}: a whole number, 1 to " in " ".join(err.split())
+    as_stored(" ".join(err.split()))
     assert [path.name for path in tmp_path.iterdir()] == ["s.toml"]
 
 
@@ -311,14 +307,11 @@ def test_an_interruption_ends_it_at_once(kintrafo, tmp_path, monkeypatch):
     assert [path.name for path in tmp_path.iterdir()] == ["s.toml"]
 
 
-def test_without_pymoo_it_is_said_how_to_install_it(kintrafo, tmp_path, monkeypatch):
+def test_without_pymoo_it_is_said_how_to_install_it(tmp_path, monkeypatch, ends):
     (tmp_path / "s.toml").write_text(STUDY, encoding="utf-8")
     monkeypatch.setitem(sys.modules, "pymoo.algorithms.moo.nsga2", None)
     monkeypatch.setattr(Candidates, "values", None)  # before anything is computed
-    code, out, err = kintrafo("pareto", "reference_car", "s.toml", "-o", "a.csv")
-    assert (code, out) == (3, "")
-    assert "needs pymoo, which is not installed" in " ".join(err.split())
-    assert 'pip install "kintrafo[pareto]"' in err
+    ends(3, "pareto", "reference_car", "s.toml", "-o", "a.csv")
     assert [path.name for path in tmp_path.iterdir()] == ["s.toml"]
 
 
@@ -373,8 +366,6 @@ def test_a_position_out_of_reach_is_no_study():
         call(targets={"toe": TOE["toe"] | {"at_mm": [900.0]}})
 
 
-def test_a_file_with_something_else(kintrafo, tmp_path):
+def test_a_file_with_something_else(tmp_path, ends):
     (tmp_path / "s.toml").write_text(STUDY.replace("maximise", "maximize"), encoding="utf-8")
-    code, out, err = kintrafo("pareto", "reference_car", "s.toml")
-    assert (code, out) == (2, "")
-    assert "Did you mean maximise" in " ".join(err.split())
+    ends(2, "pareto", "reference_car", "s.toml")

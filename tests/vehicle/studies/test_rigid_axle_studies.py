@@ -66,7 +66,7 @@ def test_all_points_of_a_linkage_vary_by_default():
         assert {name.rpartition(".")[0] for name in found} == wanted
 
 
-def test_what_a_rig_measured_is_explained(kintrafo, tmp_path):
+def test_what_a_rig_measured_is_explained(kintrafo, tmp_path, refused, as_stored):
     """Curves over roll in deg, of the root finder."""
     meant = AXLE.with_changes({"rods.left_link.chassis.z": 298.0})
     rolls = np.linspace(-3.0, 3.0, 5)
@@ -86,9 +86,11 @@ def test_what_a_rig_measured_is_explained(kintrafo, tmp_path):
     assert built == pytest.approx(298.0, abs=0.5)
     code, _, err = kintrafo("fit", "reference_car", "rig.csv", "errors.toml")
     assert code != 0
-    assert "over wheel_travel or rack_position" in err
-    with pytest.raises(InputError, match="curves over roll_angle, which"):
-        rig.beside(rig.measured_curves("rig.csv"), {"car": Model("reference_car")})
+    as_stored(" ".join(err.split()))
+    refused(
+        InputError,
+        lambda: rig.beside(rig.measured_curves("rig.csv"), {"car": Model("reference_car")}),
+    )
 
 
 def test_motions_over_a_road_are_those_of_one_after_the_other():
@@ -135,9 +137,8 @@ def test_what_cannot_be_studied_is_refused_by_name(study, refused):
     refused(InputError, study)
 
 
-def test_what_no_rods_allow_has_no_neighbour():
-    with pytest.raises(InputError, match=r"no neighbour .*less than 45 deg"):
-        variation.sensitivity(AXLE, over="roll", positions=[0.9])
+def test_what_no_rods_allow_has_no_neighbour(refused):
+    refused(InputError, lambda: variation.sensitivity(AXLE, over="roll", positions=[0.9]))
     found = variation.cars(AXLE, {"rods.panhard_rod.axle.y": [-459.9999, 460.0]}, positions=[0.0])
     assert "[rods.panhard_rod] is upright" in str(found["reason"].values[0])
     assert str(found["reason"].values[1]) == ""

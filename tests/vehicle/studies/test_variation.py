@@ -321,7 +321,7 @@ def test_what_cannot_be_kept_is_no_success():
     assert "not within its limits: bump_steer" in found.message
 
 
-def test_what_was_not_reached_is_reported():
+def test_what_was_not_reached_is_reported(refused):
     """A millimetre cannot bring toe to half a degree."""
     far = {"toe": {"at_mm": 50.0, "value": 0.5, "within": 0.01}}
     found = variation.optimise(CAR, {ROD: 1.0, "hardpoints.strut_top.x": 1.0, "wheel": 0.1}, far)
@@ -330,8 +330,7 @@ def test_what_was_not_reached_is_reported():
     assert f"at the end of its range: hardpoints.strut_top.x, {ROD}, wheel." in found.message
     idle = variation.optimise(CAR, {ROD: 1.0, "bodies.wheel.mass_kg": 1.0}, far)
     assert "without effect on a target: bodies.wheel.mass_kg" in idle.message
-    with pytest.raises(InputError, match=r"effect on a target: bodies\.wheel\.mass_kg\."):
-        variation.optimise(CAR, {"bodies.wheel.mass_kg": 1.0}, far)
+    refused(InputError, lambda: variation.optimise(CAR, {"bodies.wheel.mass_kg": 1.0}, far))
 
 
 @pytest.mark.parametrize("least", [0.0005, 0.002, 0.004, 0.0055])
@@ -393,7 +392,7 @@ def test_each_of_a_grid_moves_as_it_does_alone():
             assert float(found["tyre_force_min"][i, j]) == pytest.approx(least, rel=1e-4)
 
 
-def test_what_cannot_be_is_beside_what_can():
+def test_what_cannot_be_is_beside_what_can(refused):
     rates = [25e3, -1.0, 30e3]
     found = variation.sweep(
         CAR, {"strut.spring_rate_N_per_m": rates}, BUMP, reductions={"camber": "max"}
@@ -402,8 +401,7 @@ def test_what_cannot_be_is_beside_what_can():
     assert "out of range" in found["reason"].values[1]
     assert np.isnan(found["camber_max"].values).tolist() == [False, True, False]
     assert found.attrs["message"].startswith("2 of 3 reached the end")
-    with pytest.raises(InputError, match="none of the suspensions"):
-        variation.sweep(CAR, {"strut.spring_rate_N_per_m": [-1.0]}, BUMP)
+    refused(InputError, lambda: variation.sweep(CAR, {"strut.spring_rate_N_per_m": [-1.0]}, BUMP))
 
 
 def test_five_links_go_together():
@@ -477,22 +475,21 @@ def test_what_cannot_be_used(call, refused):
     refused(InputError, call)
 
 
-def test_a_neighbour_that_cannot_be_is_named(monkeypatch):
+def test_a_neighbour_that_cannot_be_is_named(monkeypatch, refused):
     """With steps of half a metre no bearing is where an arm can reach it."""
     module = importlib.import_module("kintrafo.vehicle.studies.sensitivity")
     monkeypatch.setattr(module, "_STEPS", {"m": 0.5})
-    with pytest.raises(InputError, match=r"ball_joint\.y: with -1000 mm there is no neighbour"):
-        variation.sensitivity(CAR, ["hardpoints.ball_joint.y"], positions=[0.0])
+    refused(
+        InputError, lambda: variation.sensitivity(CAR, ["hardpoints.ball_joint.y"], positions=[0.0])
+    )
 
 
 # -- commands -----------------------------------------------------------------------------------
 
 
-def test_commands_refuse_and_end_as_others_do(kintrafo, tmp_path):
+def test_commands_refuse_and_end_as_others_do(kintrafo, tmp_path, as_stored, ends):
     (tmp_path / "a.toml").write_text("[limit.toe]\nleast = 0.0\n", encoding="utf-8")
-    code, _, err = kintrafo("tolerance", "reference_car", "a.toml")
-    assert code == 2
-    assert "Did you mean limits" in err
+    ends(2, "tolerance", "reference_car", "a.toml")
     (tmp_path / "b.toml").write_text(
         f'[free]\n"{ROD}" = 1.0\n[targets.toe]\nat_mm = 50\nvalue = 0.0\nwithin = 1.0\n'
         "[limits.bump_steer]\nmost = -0.01\n",
@@ -503,11 +500,10 @@ def test_commands_refuse_and_end_as_others_do(kintrafo, tmp_path):
     assert "not within its limits" in out
     for command in ("sensitivity", "tolerance"):
         files = ["reference_car", "b.toml"][: 1 + (command == "tolerance")]
-        code, _, err = kintrafo(command, *files, "--at", "nan")
-        assert code == 2
-        assert "a finite number in mm" in " ".join(err.split())
+        ends(2, command, *files, "--at", "nan")
     code, _, err = kintrafo("sweep", "reference_car", f"{ROD}=270", f"{ROD}=280")
-    assert (code, "named twice" in " ".join(err.split())) == (2, True)
+    assert code == 2
+    as_stored(" ".join(err.split()))
     for wrong in (f"{ROD}=1:2:1000000000", f"{ROD}=1:2", f"{ROD}=1:2:x", ROD, f"{ROD}=a"):
         code, _, err = kintrafo("sweep", "reference_car", wrong)
         assert code == 2
@@ -520,9 +516,7 @@ def test_commands_refuse_and_end_as_others_do(kintrafo, tmp_path):
     code, out, _ = kintrafo("sweep", "reference_car", "strut.spring_rate_N_per_m=-1,25000")
     assert code == 1
     assert "1 of 2 reached the end" in out
-    code, _, err = kintrafo("sensitivity", "reference_car", "--of", "camberr")
-    assert code == 2
-    assert "Did you mean camber" in err
+    ends(2, "sensitivity", "reference_car", "--of", "camberr")
 
 
 @pytest.mark.parametrize(
@@ -544,12 +538,13 @@ def test_every_value_of_a_starter_file_may_be_meant(name):
     assert found.to_array().notnull().all()
 
 
-def test_values_that_cannot_move_are_reported():
+def test_values_that_cannot_move_are_reported(refused):
     inertia = "bodies.tie_rod.inertia_xx_kg_m2"
-    with pytest.raises(InputError, match="a body without mass has no inertia"):
-        variation.sensitivity(CAR, [inertia, "wheel"], positions=[0.0])
-    with pytest.raises(InputError, match="a body without mass has no inertia"):
-        variation.sensitivity(CAR, ["bodies.tie_rod.inertia_*"], positions=[0.0])  # and no others
+    refused(
+        InputError,
+        lambda: variation.sensitivity(CAR, [inertia, "wheel"], positions=[0.0]),
+        lambda: variation.sensitivity(CAR, ["bodies.tie_rod.inertia_*"], positions=[0.0]),
+    )  # and no others
     found = variation.sensitivity(CAR, ["bodies.tie_rod", ROD], names=["toe"], positions=[0.0])
     assert found["place"].values.tolist() == [ROD, "bodies.tie_rod.mass_kg"]
     assert found.attrs["left_out"].split(", ")[0] == inertia
@@ -559,7 +554,7 @@ def test_values_that_cannot_move_are_reported():
     np.testing.assert_array_equal(found["toe"][:1], alone["toe"])
 
 
-def test_bushes_are_refused_where_joints_are_rigid():
+def test_bushes_are_refused_where_joints_are_rigid(refused):
     soft = CAR.with_changes({"bushings": {"arm_rear": {"axial_N_per_mm": 400.0}}})
     name = "bushings.arm_rear.axial_N_per_mm"
     for call in (
@@ -567,5 +562,5 @@ def test_bushes_are_refused_where_joints_are_rigid():
         lambda: variation.sensitivity(soft, [name]),
         lambda: variation.sweep(soft, {name: [400.0]}),
     ):
-        with pytest.raises(InputError, match="depend on bushes, since joints are rigid"):
+        with refused(InputError):
             call()

@@ -140,7 +140,7 @@ def test_they_oppose_the_slip_and_are_symmetric(tyre):
     assert abs(none.fy) < 1e-5
 
 
-def test_the_linear_tyre_is_linear_and_ends_at_the_friction():
+def test_the_linear_tyre_is_linear_and_ends_at_the_friction(refused):
     tyre = kintrafo.tyres.LinearSlip(**LINEAR)
     found = tyre.evaluate(4000.0, 1e-4, 1e-4, 1e-3)
     assert found.fx == pytest.approx(9.0, rel=1e-5)
@@ -150,7 +150,7 @@ def test_the_linear_tyre_is_linear_and_ends_at_the_friction():
     assert np.hypot(sliding.fx, sliding.fy) == pytest.approx(3600.0, rel=1e-3)
     assert found.loaded_radius == 0.3 - 4000.0 / 2e5
     for name in ("friction", "relaxation_x", "relaxation_y", "nominal_load"):
-        with pytest.raises(kintrafo.InputError, match=f"{name} = -1: a finite number above 0"):
+        with refused(kintrafo.InputError):
             kintrafo.tyres.LinearSlip(**(LINEAR | {name: -1.0}))
 
 

@@ -111,13 +111,12 @@ def test_what_it_is_called(load):
     assert load(NEWER).side == "left"
 
 
-def test_a_negative_peak_is_the_same_tyre(load):
+def test_a_negative_peak_is_the_same_tyre(load, refused):
     """As in files of MF-Tyre 5.0 by some; what slip induces has the sign of the peak."""
     turned = with_values(ELLIPSE, PDY1=-0.98, PDY2=0.12, FITTYP=5)
     same(load(ELLIPSE), load(turned))
     assert "PDY1 and PDY2" in " ".join(load(turned).assumed)
-    with pytest.raises(kintrafo.InputError, match="the friction PDY1"):
-        load(with_values(NEWER, PDY1=-0.98, PDY2=0.12))
+    refused(kintrafo.InputError, lambda: load(with_values(NEWER, PDY1=-0.98, PDY2=0.12)))
 
 
 def test_the_friction_ellipse_may_be_asked_for(load):
@@ -179,19 +178,18 @@ def test_mistakes_are_refused_by_name(load, changed, refused):
     refused(kintrafo.InputError, lambda: load(changed(NEWER)))
 
 
-def test_other_files_are_refused(load, tmp_path):
-    with pytest.raises(kintrafo.InputError, match=r"ends in \.tir"):
-        load(NEWER, "own.txt")
+def test_other_files_are_refused(load, tmp_path, refused):
+    refused(kintrafo.InputError, lambda: load(NEWER, "own.txt"))
     with pytest.raises(kintrafo.InputError, match="cannot be read"):
         kintrafo.tyres.load(tmp_path / "none.tir")
-    with pytest.raises(kintrafo.InputError, match="the path of a file"):
-        kintrafo.tyres.load(3)
+    refused(kintrafo.InputError, lambda: kintrafo.tyres.load(3))
 
 
-def test_changes_are_checked(load):
+def test_changes_are_checked(load, refused):
     tyre = load(NEWER)
     assert tyre.with_changes({"LMUY": 0.5}).evaluate(4000.0, 0.2).fy > -2100.0
-    with pytest.raises(kintrafo.InputError, match="LMUQ is not a coefficient"):
-        tyre.with_changes({"LMUQ": 0.5})
-    with pytest.raises(kintrafo.InputError, match="LMUY = -1: more than zero"):
-        tyre.with_changes({"LMUY": -1.0})
+    refused(
+        kintrafo.InputError,
+        lambda: tyre.with_changes({"LMUQ": 0.5}),
+        lambda: tyre.with_changes({"LMUY": -1.0}),
+    )

@@ -75,7 +75,7 @@ def test_combined_slip_is_found_again(older, tmp_path):
         assert value == pytest.approx(tyre.coefficients[name], rel=1e-6), name
 
 
-def test_a_file_in_other_units(tmp_path):
+def test_a_file_in_other_units(tmp_path, refused):
     data = with_forces(lateral(), "fy")
     path = tmp_path / "rig.csv"
     rows = np.column_stack(
@@ -87,14 +87,14 @@ def test_a_file_in_other_units(tmp_path):
     found = kintrafo.tyres.fit(path, TRUTH.with_changes({"PDY1": 1.2, "PKY1": -15.0}),
                                ["PDY1", "PKY1"])  # fmt: skip
     np.testing.assert_allclose(found.table["value"], [0.98, -21.0], rtol=1e-6)
-    for columns, said in (
-        ("load_kg,slip_angle_deg,camber_deg,fy_N,x", "load is missing"),
-        ("load_N,slip_angle_deg,camber_deg,side_N,x", "no force is there"),
-        ("load_N,slip_angle_N,camber_deg,fy_N,x", "unit N does not fit slip_angle"),
-        ("load_N,slip_angle_deg,camber_deg,fy_N,fy_kN", "fy is in 2 columns"),
+    for columns in (
+        "load_kg,slip_angle_deg,camber_deg,fy_N,x",
+        "load_N,slip_angle_deg,camber_deg,side_N,x",
+        "load_N,slip_angle_N,camber_deg,fy_N,x",
+        "load_N,slip_angle_deg,camber_deg,fy_N,fy_kN",
     ):
         np.savetxt(path, rows, delimiter=",", header=columns, comments="")
-        with pytest.raises(kintrafo.InputError, match=said):
+        with refused(kintrafo.InputError):
             kintrafo.tyres.fit(path, TRUTH)
 
 
@@ -160,7 +160,7 @@ _MF_5 = OLDER.replace("PROPERTY_FILE_FORMAT     = 'PAC2002'", "FITTYP = 5")
 @pytest.mark.parametrize(
     "text", [None, OLDER, _BY_ELLIPSE, _MF_5], ids=["newer", "older", "ellipse", "MF 5"]
 )
-def test_a_tyre_that_is_written_is_the_same(tmp_path, text):
+def test_a_tyre_that_is_written_is_the_same(tmp_path, text, refused):
     tyre = TRUTH
     if text is not None:
         (tmp_path / "older.tir").write_text(text, encoding="utf-8")
@@ -171,5 +171,4 @@ def test_a_tyre_that_is_written_is_the_same(tmp_path, text):
     assert (again.form, again.name, again.side) == (tyre.form, tyre.name, tyre.side)
     assert again.left_out == ()
     assert path.read_text(encoding="utf-8").startswith("$ found\n$ by kintrafo\n[UNITS]\n")
-    with pytest.raises(kintrafo.InputError, match=r"ends in \.tir"):
-        kintrafo.tyres.write_tir(tyre, tmp_path / "own.txt")
+    refused(kintrafo.InputError, lambda: kintrafo.tyres.write_tir(tyre, tmp_path / "own.txt"))

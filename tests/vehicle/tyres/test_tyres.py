@@ -175,8 +175,7 @@ def test_relaxation_lengths(tyre_of):
 def test_arguments_are_refused_by_name(tyre_of, arguments, refused):
     refused(kintrafo.InputError, lambda: tyre_of(NEWER).evaluate(**arguments))
     if "pressure" in arguments:
-        with pytest.raises(kintrafo.InputError, match="does not depend on it"):
-            tyre_of(FILES["PAC2002"]).evaluate(**arguments)
+        refused(kintrafo.InputError, lambda: tyre_of(FILES["PAC2002"]).evaluate(**arguments))
 
 
 def test_the_free_radius_is_the_loaded_one_without_load():
