@@ -348,7 +348,11 @@ def few_generations(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def one_picture(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Repeat the first picture in all chapters; drawing all pictures takes seconds."""
+    """Repeat the first picture in all chapters, and the first free bodies in all load cases.
+
+    Drawing all pictures takes seconds.
+    """
+    from kintrafo.vehicle.plots.loads import free_bodies
     from kintrafo.vehicle.report.chapters.chapter import ChapterPicture
 
     _draw_roughly(monkeypatch)
@@ -361,6 +365,16 @@ def one_picture(monkeypatch: pytest.MonkeyPatch) -> None:
         return replace(drawn[0], words=words)
 
     monkeypatch.setattr(ChapterPicture, "of", first)
+    of_command: dict[tuple[str, ...], Any] = {}
+
+    def first_bodies(*given: Any, **options: Any) -> Any:
+        command = tuple(sys.argv)
+        if command not in of_command:
+            of_command[command] = free_bodies(*given, **options)
+        return of_command[command]
+
+    for place in ("plots.loads", "report.chapters.loads"):
+        monkeypatch.setattr(f"kintrafo.vehicle.{place}.free_bodies", first_bodies)
 
 
 @pytest.fixture
