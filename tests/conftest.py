@@ -271,14 +271,19 @@ def refused(as_stored: Callable[..., None]) -> Callable[..., Any]:
 @pytest.fixture
 def ends(
     kintrafo: Callable[..., tuple[int, str, str]], as_stored: Callable[..., None]
-) -> Callable[..., None]:
-    """Assert that a command has an exit code, and compare its messages with those stored."""
+) -> Callable[..., str]:
+    """Assert that a command has an exit code, and compare its messages with those stored.
 
-    def compare(code: int, *arguments: object) -> None:
+    It returns the messages in one line.
+    """
+
+    def compare(code: int, *arguments: object) -> str:
         found, out, err = kintrafo(*arguments)
         assert found == code, err
         assert not out or code != 2, out
-        as_stored(" ".join(re.sub("[╭─╮│╰╯]", " ", err).split()))
+        message = " ".join(re.sub("[╭─╮│╰╯]", " ", err).split())
+        as_stored(message)
+        return message
 
     return compare
 

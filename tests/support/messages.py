@@ -46,7 +46,7 @@ def alike(text, other):
 
 def _last_digit(number):
     digits, _, exponent = number.partition("e")
-    return 10.0 ** (int(exponent or 0) - len(digits.partition(".")[2]))
+    return float(f"1e{int(exponent or 0) - len(digits.partition('.')[2])}")
 
 
 class StoredMessages:

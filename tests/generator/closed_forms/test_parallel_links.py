@@ -72,17 +72,11 @@ LOCKED = {
 
 @pytest.mark.parametrize("allow_iteration", [False, True])
 @pytest.mark.parametrize("case", LOCKED)
-def test_links_of_bodies_that_another_loop_turns_are_refused(case, allow_iteration):
+def test_links_of_bodies_that_another_loop_turns_are_refused(case, allow_iteration, refused):
     """Crank and rocker turn against each other, as the frame has it, and the links forbid that."""
     pins, more = LOCKED[case]
     model = replace(double_crank("locked", pins, **more), allow_iteration=allow_iteration)
-    with pytest.raises(NoClosedFormError) as error:
-        CataloguePlan.of(model)
-    left = [f"link{i}" for i in range(2 if "same" in case else 1, len(pins))]
-    text = str(error.value)
-    assert f"Leave {', '.join(left)} out" in text
-    assert "the way between the hinges of frame on them that of link0" in text
-    assert "without turning" in text
+    refused(NoClosedFormError, lambda: CataloguePlan.of(model))
 
 
 def test_in_whatever_order_links_are_declared_they_are_refused():
@@ -96,13 +90,10 @@ def test_in_whatever_order_links_are_declared_they_are_refused():
 
 
 @pytest.mark.parametrize("also", ["crank_0", "axle_1", "crank_1", "axle_2", "crank_2"])
-def test_what_the_links_determine_cannot_be_driven_too(also):
+def test_what_the_links_determine_cannot_be_driven_too(also, refused):
     model = locomotive("driven_twice")
     driven = tuple(map(model.mechanism.joint, ("swing", "axle_0", also)))
-    with pytest.raises(NoClosedFormError) as error:
-        CataloguePlan.of(replace(model, independent=driven))
-    if also == "crank_0":
-        assert "or drive one of the hinges of wheel0 only" in str(error.value)
+    refused(NoClosedFormError, lambda: CataloguePlan.of(replace(model, independent=driven)))
 
 
 @pytest.mark.parametrize("driven", ["crank_bearing", "rocker_bearing"])

@@ -1,5 +1,6 @@
 """A declared number is in the unit that the equations read it in, or it is refused."""
 
+import re
 from dataclasses import replace
 
 import kintrafo
@@ -24,9 +25,8 @@ def test_what_is_no_unit_of_si_is_refused(unit, refused):
         lambda: Parameter("number", 1.0, unit, "number"),
         lambda: g.Motion("turn", unit, "turn"),
     ):
-        with pytest.raises(g.DeclarationError) as error:
+        with pytest.raises(g.DeclarationError, match=re.escape(repr(unit))):
             make()
-        assert repr(unit) in str(error.value)
     shows = Showing(lambda _: g.Action({"q_A": 1}), lambda *_: [Shown("s", 1, unit, "s")])
     refused(kintrafo.MechanismError, lambda: kintrafo.compile(model(shows), backend="numpy"))
 
@@ -44,9 +44,8 @@ def test_units_of_si_are_taken(unit):
 def test_a_motion_is_in_the_unit_of_its_joint(joint, unit, right):
     whole = model(Own(lambda _: None), A).mechanism
     whole = replace(whole, joints=(joint,), forces=(), coordinates=())
-    with pytest.raises(g.DeclarationError) as error:
+    with pytest.raises(g.DeclarationError, match=right):
         g.Formulation("m", "t", whole, (), prescribed={joint: g.Motion("mo", unit, "motion")})
-    assert right in str(error.value)
     g.Formulation("m", "t", whole, (), prescribed={joint: g.Motion("mo", right, "motion")})
 
 

@@ -54,8 +54,7 @@ def test_a_rod_that_does_not_reach(model):
         error = caught.value
         message = str(error)
         assert message.startswith(f"{model.NAME}.{function}: ")
-        assert "the rod tie_rod cannot reach knuckle" in message
-        assert "knuckle_closure = -" in message
+        assert {"tie_rod", "knuckle", "(knuckle_closure"} <= {*message.split()}
         assert error.margins["knuckle_closure"] < 0.0
         expected = dict(zip((*model.STATE, *model.INPUTS), (*state, *inputs), strict=True))
         assert error.coordinates == expected
@@ -587,8 +586,7 @@ def finite_or_refused(model, instant, constants):
             assert np.isfinite(result).all(), function
             done.add(function)
         elif "overflows" in str(error):
-            assert "no finite number (it overflows double precision, " in str(error)
-            assert "), at beta1 = " in str(error)
+            assert " beta1 = " in str(error)
         else:
             assert isinstance(error, ClosureError)
             assert error.reasons

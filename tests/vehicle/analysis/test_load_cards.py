@@ -115,7 +115,7 @@ def test_files_of_others_stay(tmp_path, found, refused):
     assert len(loads.write_cards(found["corner"], tmp_path / "l.bdf", force=True)) == 7
 
 
-def test_the_command(request, tmp_path):
+def test_the_command(request, tmp_path, ends):
     command = request.getfixturevalue("kintrafo")
     line = "loads reference_car --part knuckle,total --axes-of part -o l.bdf -o l.inp -o l.csv"
     code, out, err = command(*line.split(), "--units", "m")
@@ -126,11 +126,5 @@ def test_the_command(request, tmp_path):
     ]  # fmt: skip
     assert "$ Units: N, m, N m." in (tmp_path / "l_knuckle.bdf").read_text(encoding="ascii")
     assert ",part as at design: x forward" in (tmp_path / "l.csv").read_text(encoding="utf-8")
-    for words, wrong in (
-        ("--axes-of is for files", "--axes-of part"),
-        ("--units is for load cards", "--units m -o l.csv"),
-        ("'yard' is not known", "--units yard -o k.inp"),
-    ):
-        code, _, err = command("loads", "reference_car", *wrong.split())
-        assert code != 0
-        assert words in err
+    for wrong in ("--axes-of part", "--units m -o l.csv", "--units yard -o k.inp"):
+        ends(2, "loads", "reference_car", *wrong.split())

@@ -443,26 +443,21 @@ def test_the_exit_code_is_about_the_cases_that_were_asked_for(kintrafo, tmp_path
     assert re.search(r"\b(kerb|bad): ", out + err)
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("cases = 3", "no section"),
-        ("", "no section"),
-        ("[cases]\n", "one or more are needed"),
-        ("static_load_N = 1e308\n[cases.a]\ncontact_g = [0, 0, 1]", "below 1e"),
-        ("[cases]\na = 3", "must be a section"),
-    ],
-)
-def test_files_that_are_none(kintrafo, tmp_path, text, words):
-    (tmp_path / "c.toml").write_text(text, encoding="utf-8")
-    code, _, err = kintrafo("loads", "reference_car", "--cases", "c.toml")
-    assert code == 2
-    assert words in " ".join(err.split())
+def test_files_that_are_none(tmp_path, ends):
+    for text in (
+        "cases = 3",
+        "",
+        "[cases]\n",
+        "static_load_N = 1e308\n[cases.a]\ncontact_g = [0, 0, 1]",
+        "[cases]\na = 3",
+    ):
+        (tmp_path / "c.toml").write_text(text, encoding="utf-8")
+        ends(2, "loads", "reference_car", "--cases", "c.toml")
 
 
-@pytest.mark.parametrize("option", ["--part", "--case"])
-def test_options_are_named(option, ends):
-    ends(2, "loads", "reference_car", option, "nothing")
+def test_options_are_named(ends):
+    for option in ("--part", "--case"):
+        ends(2, "loads", "reference_car", option, "nothing")
 
 
 def test_a_file_of_cases(tmp_path, refused):

@@ -18,44 +18,35 @@ def nothing_is_made(monkeypatch):
 
 
 @pytest.mark.parametrize("to", EVERY)
-def test_a_file_with_a_value_out_of_its_range(kintrafo, tmp_path, to, as_stored):
+def test_a_file_with_a_value_out_of_its_range(kintrafo, tmp_path, to, ends):
     """As a person leaves it who has edited it: key, value, unit and range are named."""
     kintrafo("new", "a.toml")
     file = tmp_path / "a.toml"
     text = file.read_text()
     assert text.count("spring_rate_N_per_m = 25000.0") == 1
-    for value, words in (("-25000.0", "is out of range: allowed is 0 N/m or more"), ("nan", "nan")):
+    for value in ("-25000.0", "nan"):
         file.write_text(text.replace("rate_N_per_m = 25000.0", f"rate_N_per_m = {value}"))
-        code, out, err = kintrafo("export", "a.toml", "--to", to)
-        assert (code, out) == (2, "")
-        message = " ".join(err.split())
-        as_stored(message)
-        assert words in message
+        ends(2, "export", "a.toml", "--to", to)
         assert [path.name for path in tmp_path.iterdir()] == ["a.toml"]
 
 
 @pytest.mark.usefixtures("nothing_is_made")
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (["--to", "matlab"], "--to 'matlab' is not known. Known are: c, fmu, casadi, jax, points."),
-        (["--to", "fmu", "--fmi", "1"], "fmi '1' is not known. Known are: 2, 3."),
-        (["--to", "fmu", "--platform", "mac"], "platforms 'mac' is not known"),
-        (["--to", "fmu", "-o", "a.zip"], "must end in .fmu. Write a.fmu."),
-        (["--to", "jax", "-o", "jax.py"], "the name of a module such as jax_jax.py is needed"),
-        (["--to", "casadi", "-o", "a.txt"], "the name of a module such as a_casadi.py is needed"),
-        (["--to", "fmu", "-o", "mine.fmu"], "exists already"),
-        (["--to", "c", "-o", "mine.fmu"], "not a folder"),
-        (["--to", "c", "--fmi", "2"], "--fmi is only for --to fmu"),
-        (["--to", "points", "--platform", "linux"], "--platform is only for --to fmu"),
-        (["--to", "points"], "this is the file of a car"),
-    ],
-)
-def test_bad_arguments_are_found_before_a_car_is_derived(kintrafo, tmp_path, arguments, words):
+def test_bad_arguments_are_found_before_a_car_is_derived(ends, tmp_path):
     (tmp_path / "mine.fmu").write_text("a year of work")
-    code, out, err = kintrafo("export", "driving_car", *arguments)
-    assert (code, out) == (2, "")
-    assert words in " ".join(err.split())
+    for line in (
+        "--to matlab",
+        "--to fmu --fmi 1",
+        "--to fmu --platform mac",
+        "--to fmu -o a.zip",
+        "--to jax -o jax.py",
+        "--to casadi -o a.txt",
+        "--to fmu -o mine.fmu",
+        "--to c -o mine.fmu",
+        "--to c --fmi 2",
+        "--to points --platform linux",
+        "--to points",
+    ):
+        ends(2, "export", "driving_car", *line.split())
     assert [path.name for path in tmp_path.iterdir()] == ["mine.fmu"]
 
 

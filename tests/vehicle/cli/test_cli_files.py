@@ -111,7 +111,6 @@ def test_no_command_writes_over_what_it_did_not_write(kintrafo, tmp_path, comman
     code, out, err = kintrafo(*arguments)
     assert (code, out) == (2, "")
     assert "--force" in err
-    assert "--force" in err
     assert [path.name for path in tmp_path.iterdir()] == [name]
     assert (tmp_path / name).read_text() == "a year of work"
 

