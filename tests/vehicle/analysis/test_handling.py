@@ -264,6 +264,16 @@ def test_a_driver_does_the_same_again_and_on_the_other_side(car):
     assert np.allclose(right["y"], -left["y"], atol=1e-6)
 
 
+@pytest.mark.parametrize(("way", "duration", "words"), [
+    ([0.0, 0.0, 0.0, 0.0, 0.0], 0.5, r"after 0\.5 s the car is .* m before the end of the path"),
+    ([0.0, 0.0, 30.0, 60.0, 90.0], 5.0, r"the car leaves the path: from .* Choose a lower speed"),
+])  # fmt: skip
+def test_a_path_that_a_car_does_not_follow_is_not_valid(car, way, duration, words):
+    points = {"x_m": [0.0, 20.0, 30.0, 31.0, 32.0], "y_m": way, "duration_s": duration}
+    found = run(car, "path_following", step_ms=5.0, **points).not_valid
+    assert re.match(words, found[-1]), found
+
+
 def test_braking_and_coasting_follow_newton(car):
     found = run(car, "braking", deceleration_m_per_s2=5.0, rise_s=0.0).metrics
     torque = 5.0 * car.mass * float(np.mean(car.radii))

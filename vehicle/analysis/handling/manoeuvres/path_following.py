@@ -1,8 +1,10 @@
 """Driving along a path through points."""
 
+from collections.abc import Iterator
 from typing import ClassVar, Literal
 
 import numpy as np
+import xarray as xr
 from pydantic import Field
 
 from .....core.named_types import Array
@@ -78,7 +80,23 @@ class PathFollowing(SimulatedManoeuvre):
                 float(np.sqrt(np.mean(offsets**2))), "root mean square of that distance", "m"
             ),
         }  # fmt: skip
+        motion.attrs["not_valid"] += self._lost(motion, offsets, here.length - steers.along)
         return HandlingResult(self.judged(numbers | greatest(motion)), {"": motion})
+
+    def _lost(self, motion: xr.Dataset, offsets: Array, left: float) -> Iterator[str]:
+        """Yield the reasons why a car does not follow the path, of which a distance is left [m]."""
+        time, seen = motion["time"].values, self.speed * self.driver.preview_s
+        away = np.flatnonzero(np.abs(offsets) > seen)
+        if away.size:
+            yield (
+                f"the car leaves the path: from {time[away[0]]:.2f} s on it is farther from it "
+                f"than the driver looks ahead, {seen:.3g} m. Choose a lower speed"
+            )
+        elif left > 0.0:
+            yield (
+                f"after {time[-1]:.6g} s the car is {left:.3g} m before the end of the path. "
+                "Raise duration_s"
+            )
 
 
 # Least number of points of a path, and number of points of its picture.
