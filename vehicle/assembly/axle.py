@@ -140,7 +140,8 @@ class AxleAssembly(SteerableAssembly):
             poses = poses_of(model, position.travels[side], position.rack)
             if self.axle.halves:
                 _, turn = turn_of_half(self.axle, side, poses)
-                refuse_loose_link(side, turn, np.asarray(position.travels[side]))
+                travel = np.asarray(position.travels[side])
+                refuse_loose_link(side, turn, travel, np.asarray(position.rack))
             found[f"_{side}"] = poses
         return found
 

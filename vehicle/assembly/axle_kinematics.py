@@ -166,15 +166,20 @@ class AxleKinematics(TwoWheels):
         return wheel.steer(self.left) - static[0], wheel.steer(self.right) - static[1]
 
 
-def refuse_loose_link(side: str, turn: Array, travels: Array) -> None:
-    """Raise an `InputError` for positions in which the drop link of a side does not reach."""
+def refuse_loose_link(side: str, turn: Array, travels: Array, racks: Array) -> None:
+    """Raise an `InputError` for positions in which the drop link of a side does not reach.
+
+    Travels of the wheel and displacements of the rack are broadcast [m]; the position nearest to
+    the design position is named.
+    """
     lost = ~np.isfinite(turn)
     if lost.any():
-        there = np.broadcast_to(travels, lost.shape)[lost]
-        first = 1e3 * float(there[np.abs(there).argmin()])
+        there, rack = (1e3 * np.broadcast_to(v, lost.shape)[lost] for v in (travels, racks))
+        first = np.hypot(there, rack).argmin()
+        steered = f", the rack at {rack[first]:+.4g} mm" if rack[first] else ""
         problem = (
-            f"[anti_roll_bar] the {side} drop link does not reach its lever at {first:+.4g} mm of "
-            "wheel travel. Choose less travel, or move link_top, link_foot or bush."
+            f"[anti_roll_bar] the {side} drop link does not reach its lever at {there[first]:+.4g} "
+            f"mm of wheel travel{steered}. Choose less travel, or move link_top, link_foot or bush."
         )
         raise InputError([problem], "axle")
 
@@ -186,7 +191,7 @@ def _diagonal(left: Array, right: Array) -> Array:
 
 def _half(model: Model, half: HalfBar, angle: Array, rack: Array, travel: Array, side: str) -> Half:
     turn, slope, lever = _turned(model, half, angle, rack)
-    refuse_loose_link(side, turn, travel)
+    refuse_loose_link(side, turn, travel, rack)
     changes = (
         weight / _STEP * _turned(model, half, angle + by * _STEP, rack)[1]
         for by, weight in _WEIGHTS.items()

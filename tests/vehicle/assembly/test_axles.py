@@ -503,6 +503,9 @@ def test_what_is_out_of_reach_is_refused(refused):
     axle = Axle.from_dict({"axle": "front", "side": CAR, "anti_roll_bar": short})
     refused(InputError, lambda: characteristics.over(axle, "bump"))
     assert any("does not reach" in text for text in checkup(axle).problems)
+    steered = short | {"link_on": "knuckle", "link_foot": [150.0, -600.0, 180.0]}
+    axle = Axle.from_dict({"axle": "front", "side": CAR, "anti_roll_bar": steered})
+    refused(InputError, lambda: characteristics.over(axle, "steer"))
     refused(InputError, lambda: characteristics.over(AXLE, "roll", [3.0]))
     for racks in ([-10.0, 10.0], [200.0, 100.0], [100.0, 40.0]):
         wrong = {"angle_deg": [-90.0, 90.0], "rack_mm": racks}
