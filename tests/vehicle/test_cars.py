@@ -57,6 +57,7 @@ def test_paths_count_from_the_file(tmp_path):
         {"rear.side.vehicle.center_of_gravity_height_mm": 500.0},
         {"rear.side.gravity.acceleration_m_per_s2": 1.62},
         {"front.side.vehicle.front_brake_share": 0.6},
+        {"body.com_mm.y": 900.0},
     ],
 )
 def test_what_contradicts_itself_is_refused(changes, refused):

@@ -12,6 +12,7 @@ from ...core.named_types import Array
 from ...core.validator import Validator
 from ..corner.bushes import described_bushings, mirrored_bushings, softness_of_rack
 from ..models.axle import Axle
+from ..models.axle.bar import unlikely_bar
 from ..models.axle.equations import AxleModel
 from ..models.car.car import AnyAxle
 from ..models.model import Model
@@ -275,9 +276,11 @@ class AxleAssembly(SteerableAssembly):
         return {side: self.axle.models[side] for side in SIDES}
 
     def plausibility(self) -> Plausibility:
-        bent = self.axle.bar is not None and self.axle.bar.free_twist_deg
+        bar = self.axle.bar
+        if bar is None:
+            return Plausibility((), ())
         note = "the anti-roll bar is bent at design: the sides' equilibrium is without it"
-        return Plausibility((), (note,) if bent else ())
+        return Plausibility(tuple(unlikely_bar(bar)), (note,) if bar.free_twist_deg else ())
 
     def described(self) -> dict[str, str]:
         bar = self.axle.bar

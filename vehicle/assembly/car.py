@@ -17,6 +17,7 @@ from ...systems.state import State
 from ..input.units import in_metres
 from ..kinds import Suspension
 from ..models.car.car import AnyAxle, Car, center_of_gravity, masses, suspension_masses
+from ..models.car.driving import unlikely_driving
 from ..models.car.equations import CarModel
 from ..models.model import Model
 from ..models.plausibility import LOWEST_CENTER, Plausibility, unlikely_body
@@ -78,7 +79,12 @@ class CarAssembly(Assembly):
         if not self.axles:
             return Plausibility((), ())
         base = in_metres(self.car.described.wheelbase_mm or 0.0, "mm")
-        found = unlikely_body(self.car.described.body, center_of_gravity(self.car), base)
+        described = self.car.described
+        found = [*unlikely_body(described.body, center_of_gravity(self.car), base)]
+        if self.car.drives:
+            total = sum(mass for mass, _ in masses(self.car))
+            radius = max(tyre.radius for tyre in self.car.tyres.values())
+            found += unlikely_driving(described.brakes, described.air, total * radius)
         return Plausibility(tuple(found), ())
 
     def described(self) -> dict[str, str]:

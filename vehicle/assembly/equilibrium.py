@@ -171,12 +171,16 @@ def _further(
     refuse_missing_loads(given, assembly, values)
     described = assembly.model.equations.INPUTS
     own = {"rack_position", *(assembly.names_of(wheel).road for wheel in assembly.wheels)}
+    for name in [name for name in values if name in own]:
+        argument = "rack_position" if name == "rack_position" else "road_height"
+        given.fail(f"input '{name}': use the argument {argument} instead.")
     known = [name for name in described if name not in own]
     return {
         given.among("input", name, known): given.number(
             str(name), value, described.get(name, {}).get("unit", "")
         )
         for name, value in values.items()
+        if name not in own
     }
 
 

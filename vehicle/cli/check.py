@@ -47,6 +47,7 @@ def command(file: File, *, json: Json = False) -> None:
         else:
             say(str(error))
         raise typer.Exit(Exit.REFUSED) from None
+    wrong = any(one.problems for one in found.values())
     more = assembly.described() if assembly.body_moves else {}
     of_body = assembly.plausibility().problems if assembly.body_moves else ()
     if json:
@@ -60,7 +61,9 @@ def command(file: File, *, json: Json = False) -> None:
             console.print(_table(f"{file}: {assembly.heading}", more))
         for text in of_body:
             say(f"problem: {text}")
-    if of_body or any(one.problems for one in found.values()):
+        if not (of_body or wrong):
+            say("No problems found.")
+    if of_body or wrong:
         raise typer.Exit(Exit.REFUSED)
 
 
@@ -82,8 +85,6 @@ def _print(found: "Checkup", file: str) -> None:
     for kind, texts in (("problem", found.problems), ("note", found.notes)):
         for text in texts:
             say(f"{kind}: {text}")
-    if not found.problems:
-        say("No problems found.")
 
 
 def _table(title: str, rows: "Mapping[str, str]") -> Table:

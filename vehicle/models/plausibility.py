@@ -17,7 +17,9 @@ import numpy as np
 from ...core.named_types import Array
 from ...core.vectors import angle_between_lines
 from ..input.bodies import RigidBody, WheelBody
+from ..input.damper import TABLE as CURVE
 from ..input.spring import SEATS, ends_of_table, rate_at
+from ..input.units import point_in_metres
 from ..input.vehicle import TyreSection, WheelSection
 from ..kinds import Suspension
 
@@ -48,6 +50,8 @@ _APART = 5.6
 _TYRE_TO_SPRING = (0.05, 500.0)
 # Dampers have 10 to 60 % of the critical damping of the wheel on its tyre.
 _DAMPING = (0.005, 20.0)
+# Racks of cars move by 30 to 80 mm for a turn of the steering wheel [m].
+_PER_TURN = (0.0015, 1.5)
 # Radii of wheels, from karts to lorries, are 0.1 to 0.7 m; wrong units make them 1,000 times more
 # or less [m].
 _RADII = (0.005, 20.0)
@@ -126,11 +130,12 @@ def _outboard(suspension: Suspension, name: str) -> float:
 
 def _other_side(suspension: Suspension) -> Iterator[str]:
     points = suspension.hardpoints
-    for name in points.given():
-        across = -_outboard(suspension, name)
+    given = {points.text(name): points.metres(name) for name in points.given()}
+    for text, place in (given | centres_of_mass(suspension.bodies.rigid())).items():
+        across = -suspension.vehicle.sign * float(place[1])
         if across > _ACROSS:
             yield (
-                f"{points.text(name)} is {1e3 * across:.0f} mm beyond the centre plane, and the "
+                f"{text} is {1e3 * across:.0f} mm beyond the centre plane, and the "
                 f"wheel is on the {suspension.vehicle.side}. Is the sign of y right?"
             )
 
@@ -170,8 +175,18 @@ def _stray(suspension: Suspension) -> Iterator[str]:
     points = suspension.hardpoints
     given = {points.text(n): points.metres(n) for n in points.given() if n != "wheel_center"}
     yield from stray_points(given, points.unit)
+    yield from stray_points(centres_of_mass(suspension.bodies.rigid()), "mm")
     if suspension.pitman_arm is not None:
         yield from stray_points(suspension.pitman_arm.given_points(), "mm")
+
+
+def centres_of_mass(bodies: Mapping[str, RigidBody]) -> dict[str, Array]:
+    """Return the given centres of mass of bodies, (3,) [m], by their text in the file."""
+    return {
+        f"[bodies.{name}] com_mm = {list(body.com_mm)}": point_in_metres(body.com_mm, "mm")
+        for name, body in bodies.items()
+        if body.com_mm is not None
+    }
 
 
 def stray_points(points: Mapping[str, Array], unit: str) -> Iterator[str]:
@@ -199,6 +214,13 @@ def _rack(suspension: Suspension) -> Iterator[str]:
             f"[rack] axis = {list(axis)}: the rack moves at {angle:.1f} deg to the tie rod, and so "
             "hardly moves it. A rack lies across the car: [0.0, 1.0, 0.0], which moves to the left."
         )
+    least, most = _PER_TURN
+    turn = suspension.rack.travel_per_turn_mm
+    if turn is not None and not least <= 1e-3 * turn <= most:
+        yield (
+            f"[rack] travel_per_turn_mm = {turn:g} mm: racks of cars move by 30 to 80 mm. Is it in "
+            f"{'m' if 1e-3 * turn < least else 'another unit'}?"
+        )
 
 
 def _rates(suspension: Suspension) -> Iterator[str]:
@@ -217,7 +239,11 @@ def unlikely_rates(
     `mass` that of all bodies of a wheel [kg]; `key` returns the key of the rate of a part, "spring"
     or "damper", in the file.
     """
-    tyre, damper = (values[f"{part}_rate"] for part in ("tyre", "damper"))
+    tyre, damper = values["tyre_rate"], values["damper_rate"]
+    where, unit = f"{key('damper')} = {damper:g} N s/m", "Is it in N s/mm?"
+    if not damper:
+        damper = _mean_damper_rate(values)
+        where, unit = f"[damper] force_N rises by {damper:g} N s/m", "Are velocities in mm/s?"
     spring = float(rate_at(values, np.array(length)))
     if tyre == 0.0:
         return
@@ -240,9 +266,18 @@ def unlikely_rates(
     ratio = damper / (2.0 * float(np.sqrt(tyre * mass)))
     if damper != 0.0 and not least <= ratio <= most:
         yield (
-            f"{key('damper')} = {damper:g} N s/m: the wheel on its tyre has a "
-            f"damping ratio of {ratio:.2g} by it, on cars some 0.1 to 0.6. Is it in N s/mm?"
+            f"{where}: the wheel on its tyre has a damping ratio of {ratio:.2g} by it, on cars "
+            f"some 0.1 to 0.6. {unit}"
         )
+
+
+def _mean_damper_rate(values: Mapping[str, float]) -> float:
+    """Return the slope of a damper's curve from its first to its last point [N s/m]."""
+    knots = [value for name, value in values.items() if name.startswith(f"{CURVE}_knot_")]
+    width = max(knots, default=0.0) - min(knots, default=0.0)
+    parts = tuple(f"{CURVE}_{part}_" for part in ("linear", "quadratic", "cubic"))
+    rise = sum(value for name, value in values.items() if name.startswith(parts))
+    return rise / width if width else 0.0
 
 
 def beyond_the_table(values: Mapping[str, float], length: float) -> Iterator[str]:

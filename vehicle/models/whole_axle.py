@@ -27,6 +27,7 @@ from ..input.messages import messages_of
 from .plausibility import (
     Plausibility,
     beyond_the_table,
+    centres_of_mass,
     stray_points,
     unlikely_inertia,
     unlikely_rates,
@@ -338,6 +339,7 @@ class WholeAxle(WheeledSection):
         given = {own.text(n): own.metres(n) for n in own.given() if n != "wheel_center"}
         given.update(points)
         yield from stray_points(given, own.unit)
+        yield from stray_points(centres_of_mass(bodies), "mm")
         yield from unlikely_vehicle(self.vehicle)
         far = max(float(np.linalg.norm(at - self.center)) for at in given.values())
         yield from unlikely_tyre(self.tyre)

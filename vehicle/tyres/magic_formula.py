@@ -264,8 +264,8 @@ class MagicFormula(Tyre):
         """Return a problem for each impossible value."""
         p = self.coefficients
         positive = ("UNLOADED_RADIUS", "FNOMIN", "LFZO", "PCX1", "PCY1", "LCX", "LCY", "LMUX",
-                    "LMUY", "LCZ", "PKY2", "Q_RE0", "LONGVL", "VXLOW", "NOMPRES", "INFLPRES",
-                    "LONGITUDINAL_STIFFNESS", "LATERAL_STIFFNESS")  # fmt: skip
+                    "LMUY", "LKX", "LKY", "LCZ", "PKY2", "Q_RE0", "LONGVL", "VXLOW", "NOMPRES",
+                    "INFLPRES", "LONGITUDINAL_STIFFNESS", "LATERAL_STIFFNESS")  # fmt: skip
         problems = [
             f"{key} = {p[key]:g}: more than zero is needed."
             for key in positive
@@ -295,7 +295,7 @@ class MagicFormula(Tyre):
                         "than zero is needed. Correct them, or the range FZMIN to FZMAX."
                     )
             slope = p["PKX1"] + p["PKX2"] * dfz
-            if not slope * p["LKX"] > 0.0:
+            if not slope > 0.0:
                 problems.append(
                     f"the slip stiffness PKX1 + PKX2 dfz is {slope:g} at {load:g} N: more than "
                     "zero is needed."
@@ -305,7 +305,7 @@ class MagicFormula(Tyre):
             problems.append(
                 f"the cornering stiffness vanishes within {ends[-1]:g} N. Correct PKY4 and PKY2."
             )
-        if not p["PKY1"] * p["LKY"] < 0.0:
+        if not p["PKY1"] < 0.0:
             problems.append(
                 f"PKY1 = {p['PKY1']:g}: it is negative in the axes of property files (ISO 8855: y "
                 "to the left). Convert a tyre of other axes."

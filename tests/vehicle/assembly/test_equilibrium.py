@@ -80,6 +80,7 @@ def test_a_run_with_actuators_begins_at_rest(name):
 @each
 def test_what_cannot_be_is_refused(name, refused):
     model = model_of(name)
+    own = [name for name in model.input_names if name.endswith(("road_height", "rack_position"))]
     refused(
         InputError,
         lambda: equilibrium(model, wheel_load=3000.0, road_height=0.01),
@@ -89,6 +90,7 @@ def test_what_cannot_be_is_refused(name, refused):
             model, inputs={f"{next(iter(CENTERS[name].values()))[0]}shaft_torque": 1.0}
         ),
         lambda: equilibrium(model, inputs={"road": 1.0}),
+        lambda: equilibrium(model, inputs=dict.fromkeys(own, 0.01)),
         lambda: run(model, Scenario(), wheels="front"),
     )
 

@@ -1,8 +1,9 @@
 """Common mistakes in hardpoint files, one at a time: each is reported by its name."""
 
 import pytest
+from cars.axles import BAR_OF_STRUTS
 from cars.driving_cars import car_on_arms
-from kintrafo import Model, Suspension
+from kintrafo import Axle, Model, Suspension, load
 from kintrafo.core.errors import InputError
 from kintrafo.vehicle.analysis.checkup import checkup
 from kintrafo.vehicle.assembly.of import assembly_of
@@ -42,6 +43,7 @@ def test_nothing_is_wrong_with_the_cars_that_come_with_it(name, mirrored):
 
 
 REFERENCE, WISHBONE = "reference_car", "double_wishbone_car"
+IN_MM_PER_S = {"velocity_m_per_s": [-1000.0, 0.0, 1000.0], "force_N": [-3000.0, 0.0, 1000.0]}
 LONG = {"strut.length_max_mm": 3000.0}
 MISTAKES = [
     (REFERENCE, with_sign(REFERENCE, "y", "tie_rod_inner"), "tie_rod_inner", "sign of y"),
@@ -85,6 +87,11 @@ MISTAKES = [
     (WISHBONE, {"tyre.rate_N_per_m": 200.0}, "[tyre] rate", "N/mm"),
     (WISHBONE, {"spring.rate_N_per_m": 60.0}, "[spring] rate", "N/mm"),
     (WISHBONE, {"damper.rate_N_s_per_m": 4.0}, "[damper] rate", "N s/mm"),
+    (WISHBONE, {"damper": IN_MM_PER_S}, "[damper] force_N rises by 2 N s/m", "mm/s"),
+    (WISHBONE, {"rack.travel_per_turn_mm": 0.05}, "[rack] travel_per_turn_mm", "in m?"),
+    (WISHBONE, {"rack.travel_per_turn_mm": 5e4}, "[rack] travel_per_turn_mm", "another unit"),
+    (WISHBONE, {"bodies.knuckle.com_mm": [-0.01, -0.71, 0.3]}, "[bodies.knuckle] com_mm", "metres"),
+    (WISHBONE, {"bodies.knuckle.com_mm.y": 710.0}, "[bodies.knuckle] com_mm", "sign of y"),
 ]
 
 
@@ -146,6 +153,38 @@ def test_the_paper_of_a_rough_strut_says_so_too():
     text = _hop(rough, paper.rest(rough))
     assert text == f"{paper.rest(smooth).hop.text}, without friction"
     assert "overdamped" in paper.rest(rough).hop.text
+
+
+@pytest.mark.parametrize(
+    ("key", "value"), [("diameter_mm", 0.021), ("length_mm", 0.8)], ids=["thin", "short"]
+)
+def test_a_bar_in_metres(key, value):
+    bar = BAR_OF_STRUTS | {
+        "rate_Nm_per_deg": None,
+        "diameter_mm": 21.0,
+        "length_mm": 800.0,
+        key: value,
+    }
+    axle = Axle.from_dict({"axle": "front", "side": CARS[REFERENCE], "anti_roll_bar": bar})
+    (found,) = assembly_of(axle).plausibility().problems
+    assert found.startswith(f"[anti_roll_bar] {key} = {value} mm")
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("brakes.torque_Nm", 8.0),
+        ("brakes.standstill_rad_per_s", 500.0),
+        ("air.density_kg_per_m3", 0.0012),
+        ("air.drag_area_m2", 6500.0),
+        ("air.rear_lift_area_m2", -6500.0),
+    ],
+)
+def test_brakes_and_air_in_other_units(key, value):
+    section, name = key.split(".")
+    car = load("driving_car").with_changes({key: value})
+    (found,) = assembly_of(car).plausibility().problems
+    assert found.startswith(f"[{section}] {name} = {value:g}")
 
 
 @pytest.mark.parametrize(

@@ -172,6 +172,7 @@ def test_what_is_left_open_is_reported(load):
         lambda t: with_values(t, FZMIN=9500.0),
         lambda t: t.replace("[", "("),
         lambda t: t.encode() + b"\0",
+        lambda t: with_values(t, LKX=-0.9, LKY=-0.9),
     ],
 )
 def test_mistakes_are_refused_by_name(load, changed, refused):

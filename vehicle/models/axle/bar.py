@@ -9,7 +9,7 @@ lever t = T - P and the length L of the link, the angle phi of the half solves :
 in closed form, on the branch of the design position.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from math import pi
 from typing import Annotated, Any, get_args
@@ -35,6 +35,10 @@ _Length = Annotated[Number, Field(gt=0.0, le=1e4), CHECK_UNIT]
 _Modulus = Annotated[Number, Field(gt=0.0, le=1e3), CHECK_UNIT]
 _Stiffness = Annotated[Number, Field(gt=0.0, le=1e7), Remedy("Leave the key out for a rigid part.")]
 _Twist = Annotated[Number, Field(ge=-60.0, le=60.0), Remedy("Check its sign and unit.")]
+
+
+# Bars are some 20 mm thick and 1 m long [m].
+_THINNEST, _SHORTEST_BAR = 0.0006, 0.03
 
 
 class AntiRollBar(Section):
@@ -328,3 +332,14 @@ class HalfBar:
         """Return the rate of the angle for a velocity of the foot, with the link's length fixed."""
         direction, lever = self.lever(foot, turn)
         return np.einsum("...i,...i->...", velocity, direction) / lever
+
+
+def unlikely_bar(bar: AntiRollBar) -> Iterator[str]:
+    """Yield problems of the dimensions of an anti-roll bar that are in metres."""
+    for name, least, usual in (
+        ("diameter_mm", _THINNEST, "10 to 40"),
+        ("length_mm", _SHORTEST_BAR, "500 to 1500"),
+    ):
+        value = getattr(bar, name)
+        if value is not None and 1e-3 * value < least:
+            yield f"[anti_roll_bar] {name} = {value:g} mm: bars have {usual} mm. Is it in metres?"

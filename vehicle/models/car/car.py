@@ -399,7 +399,7 @@ def _problems_of_axles(car: Car) -> list[str]:
 
 
 def _problems_of_places(car: Car) -> list[str]:
-    """Return problems of the wheelbase, and of a centre of mass that is not between the axles."""
+    """Return problems of the wheelbase, and of a centre of mass that is not between the wheels."""
     x = car.axle_positions
     between, given = x["front"] - x["rear"], in_metres(car.described.wheelbase_mm or 0.0, "mm")
     problems = []
@@ -417,6 +417,13 @@ def _problems_of_places(car: Car) -> list[str]:
             f"[body] com_mm: x = {1e3 * com:g} mm is not between the wheel centres of the rear "
             f"axle at {1e3 * x['rear']:g} mm and of the front axle at {1e3 * x['front']:g} mm, so "
             "that the car would tip over. Correct it; x points forward."
+        )
+    y, wheels = float(center_of_gravity(car)[1]), [at[1] for at in car.wheel_centers.values()]
+    if not problems and not min(wheels) < y < max(wheels):
+        problems.append(
+            f"[body] com_mm: with it the centre of gravity of the whole car is at y = "
+            f"{1e3 * y:.1f} mm, and its wheels are between {1e3 * min(wheels):g} mm and "
+            f"{1e3 * max(wheels):g} mm, so that the car would tip over. Correct it; y points left."
         )
     return problems
 

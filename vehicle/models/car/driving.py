@@ -1,6 +1,6 @@
 """The sections of a driving car: rolling tyres, steering column, brakes, air."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -112,6 +112,11 @@ class SteeringColumn(Section):
                 "rack_friction_speed": self.friction_velocity_m_per_s,
             }
         )
+
+
+# Brakes of cars can decelerate them by some 10 m/s^2, air has 1.2 kg/m^3, and a car a drag area of
+# some 0.7 m^2; the wheels of a car at 1 km/h turn at 1 rad/s.
+_WEAKEST_BRAKES, _DENSITY, _LARGEST_AREA, _FASTEST_STANDSTILL = 0.3, (0.04, 40.0), 100.0, 30.0
 
 
 class CarBrakes(Section):
@@ -253,3 +258,30 @@ def named(given: Any, folder: Path) -> Any:
     if not isinstance(given, str | Path) or given in packaged_tyres():
         return given
     return str(folder / given)
+
+
+def unlikely_driving(brakes: CarBrakes | None, air: Air | None, moment: float) -> Iterator[str]:
+    """Yield problems of brakes and air; `moment` is the mass times the tyres' radius [kg m]."""
+    if brakes is not None:
+        if 0.0 < brakes.torque_Nm < _WEAKEST_BRAKES * moment:
+            yield (
+                f"[brakes] torque_Nm = {brakes.torque_Nm:g} N m: the car brakes by at most "
+                f"{brakes.torque_Nm / moment:.2g} m/s^2 by it, cars by some 10. Is it in kN m?"
+            )
+        if brakes.standstill_rad_per_s > _FASTEST_STANDSTILL:
+            yield (
+                f"[brakes] standstill_rad_per_s = {brakes.standstill_rad_per_s:g} rad/s: below "
+                "this spin the brakes act as dampers, and wheels at 100 km/h turn at some 90 "
+                "rad/s. Enter 0.5, or leave it out."
+            )
+    if air is not None:
+        least, most = _DENSITY
+        if not least <= air.density_kg_per_m3 <= most:
+            yield (
+                f"[air] density_kg_per_m3 = {air.density_kg_per_m3:g} kg/m^3: air has 1.2. Is it "
+                "in another unit?"
+            )
+        for name in ("drag_area_m2", "front_lift_area_m2", "rear_lift_area_m2"):
+            area = getattr(air, name)
+            if abs(area) > _LARGEST_AREA:
+                yield f"[air] {name} = {area:g} m^2: cars have up to 10. Is it in cm^2?"
