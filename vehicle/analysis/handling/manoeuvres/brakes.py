@@ -35,10 +35,7 @@ class BrakingManoeuvre(UntilSpeed):
     duration_s: Positive = Field(default=20.0, description="longest duration of the simulation")
 
     def problems(self) -> list[str]:
-        found = super().problems()
-        if (self.pedal is None) == (self.deceleration_m_per_s2 is None):
-            found.append("pedal, deceleration_m_per_s2: give one of the two.")
-        return found
+        return [*super().problems(), *self.one_of("pedal", "deceleration_m_per_s2")]
 
     def check(self, car: Car) -> None:
         require_controls(car, brakes=True)

@@ -32,9 +32,8 @@ class Circle(Manoeuvre):
     step_m_per_s2: Positive = Field(default=0.25, description="step of the lateral acceleration")
 
     def problems(self) -> list[str]:
-        constant = (self.speed_km_per_h, self.radius_m, self.steering_wheel_deg)
-        if sum(value is not None for value in constant) != 1:
-            return ["speed_km_per_h, radius_m, steering_wheel_deg: give one of the three."]
+        if several := self.one_of("speed_km_per_h", "radius_m", "steering_wheel_deg"):
+            return several
         if self.speed_km_per_h == 0.0:
             problem = (
                 "speed_km_per_h = 0 km/h: a car that does not move is on no circle. Enter more "

@@ -68,6 +68,16 @@ class Manoeuvre(Section):
             if not least <= value <= most
         ]
 
+    def one_of(self, *keys: str) -> list[str]:
+        """Return a problem, unless exactly one of some keys has a value."""
+        given = [f"{key} = {value:g}" for key in keys if (value := getattr(self, key)) is not None]
+        if len(given) == 1:
+            return []
+        found = f", not {' and '.join(given)}" if given else ""
+        remedy = " Remove all but one from the file; in Python, None removes a key." if given else ""
+        count = {2: "two", 3: "three"}[len(keys)]
+        return [f"{', '.join(keys)}: give one of the {count}{found}.{remedy}"]
+
     @classmethod
     def __get_pydantic_json_schema__(
         cls, core: CoreSchema, handler: GetJsonSchemaHandler

@@ -203,10 +203,8 @@ class SteeredManoeuvre(TurningManoeuvre):
     )
 
     def problems(self) -> list[str]:
-        found = super().problems()
-        if (self.lateral_acceleration_m_per_s2 is None) == (self.steering_wheel_deg is None):
-            found.append("lateral_acceleration_m_per_s2, steering_wheel_deg: give one of the two.")
-        return found
+        keys = "lateral_acceleration_m_per_s2", "steering_wheel_deg"
+        return [*super().problems(), *self.one_of(*keys)]
 
     def amplitude(self, turns: Turns, straight: Steady) -> tuple[float, dict[str, Steady]]:
         """Return the steering wheel angle relative to straight running, positive left [rad].
