@@ -74,7 +74,7 @@ class Manoeuvre(Section):
         if len(given) == 1:
             return []
         found = f", not {' and '.join(given)}" if given else ""
-        remedy = " Remove all but one from the file; in Python, None removes a key." if given else ""
+        remedy = " Remove all but one from the file; in Python, None removes a key." * bool(given)
         count = {2: "two", 3: "three"}[len(keys)]
         return [f"{', '.join(keys)}: give one of the {count}{found}.{remedy}"]
 
