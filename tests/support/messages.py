@@ -24,6 +24,12 @@ def stored():
     return json.loads(FILE.read_text(encoding="utf-8"))
 
 
+def write():
+    """Write all messages."""
+    text = json.dumps(stored(), indent=1, sort_keys=True, ensure_ascii=False)
+    FILE.write_text(f"{text}\n", encoding="utf-8")
+
+
 def key_of(item):
     """Return the key of a test among the stored messages: its file and its name."""
     return f"{item.path.stem}{item.nodeid.partition('.py')[2]}"
@@ -78,5 +84,4 @@ class StoredMessages:
         """Store the messages with ``--update-messages``."""
         if self.update and self.shown:
             stored()[self.key] = self.shown[0] if len(self.shown) == 1 else self.shown
-            text = json.dumps(stored(), indent=1, sort_keys=True, ensure_ascii=False)
-            FILE.write_text(f"{text}\n", encoding="utf-8")
+            write()

@@ -570,6 +570,7 @@ def pictured(chapter):
                            for p in chapter.pictures)]  # fmt: skip
 
 
+@pytest.mark.usefixtures("one_picture")
 def test_an_axle_has_a_chapter_in_the_report():
     chapter = axle_chapter(BENT)
     wheels, whole, _ = chapter.tables
@@ -602,6 +603,7 @@ def test_the_page_of_a_rear_axle_has_nothing_of_a_front_one(kintrafo, tmp_path):
         assert words not in page.partition('id="payload"')[0], words
 
 
+@pytest.mark.usefixtures("one_picture")
 def test_a_chapter_needs_no_steering_ratio():
     """Without one the rig goes over the rack, which then is no curve of its own."""
     car = CAR.with_changes({"rack.travel_per_turn_mm": None})
