@@ -50,6 +50,8 @@ _APART = 5.6
 _TYRE_TO_SPRING = (0.05, 500.0)
 # Dampers have 10 to 60 % of the critical damping of the wheel on its tyre.
 _DAMPING = (0.005, 20.0)
+# Bushes have 100 to 20 000 N/mm; rates in kN/mm or N/m are 1,000 times less or more [N/mm].
+_BUSHES = (3.0, 2e5)
 # Racks of cars move by 30 to 80 mm for a turn of the steering wheel [m].
 _PER_TURN = (0.0015, 1.5)
 # Radii of wheels, from karts to lorries, are 0.1 to 0.7 m; wrong units make them 1,000 times more
@@ -111,6 +113,7 @@ def plausibility(suspension: Suspension) -> Plausibility:
         *_rates(suspension),
         *unlikely_tyre(suspension.tyre),
         *_inertia(suspension),
+        *unlikely_bushings(suspension.bushings),
         *unlikely_wheel(suspension.bodies.wheel, suspension.tyre_radius()),
         *unlikely_vehicle(suspension.vehicle),
     )
@@ -307,6 +310,20 @@ def unlikely_inertia(bodies: Mapping[str, RigidBody], size: float) -> Iterator[s
                 f"of gyration of {gyration:.3g} m in a suspension of the size {size:.2f} m. "
                 "Is the inertia in kg mm^2, or the mass wrong?"
             )
+
+
+def unlikely_bushings(bushings: Mapping[str, Mapping[str, Any]] | None) -> Iterator[str]:
+    """Yield problems of stiffnesses of bushes."""
+    least, most = _BUSHES
+    for point, table in (bushings or {}).items():
+        for key in ("axial_N_per_mm", "radial_N_per_mm"):
+            for value in np.ravel(table.get(key, [])):
+                if not least <= value <= most:
+                    other = "kN/mm?" if value < least else "N/m? Leave out a rigid direction."
+                    yield (
+                        f"[bushings.{point}] {key} = {value:g} N/mm: bushes have 100 to 20000 "
+                        f"N/mm. Is it in {other}"
+                    )
 
 
 def _radius_of_gyration(body: RigidBody) -> float:

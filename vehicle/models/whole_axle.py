@@ -29,6 +29,7 @@ from .plausibility import (
     beyond_the_table,
     centres_of_mass,
     stray_points,
+    unlikely_bushings,
     unlikely_inertia,
     unlikely_rates,
     unlikely_tyre,
@@ -344,6 +345,7 @@ class WholeAxle(WheeledSection):
         far = max(float(np.linalg.norm(at - self.center)) for at in given.values())
         yield from unlikely_tyre(self.tyre)
         yield from unlikely_inertia(bodies, reach + far)
+        yield from unlikely_bushings(self.bushings)
         wheel = self.bodies.wheel
         yield from unlikely_wheel(wheel, self.tyre_radius())
         length = self.length("spring", RIGHT)

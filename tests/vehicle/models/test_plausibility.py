@@ -92,6 +92,18 @@ MISTAKES = [
     (WISHBONE, {"rack.travel_per_turn_mm": 5e4}, "[rack] travel_per_turn_mm", "another unit"),
     (WISHBONE, {"bodies.knuckle.com_mm": [-0.01, -0.71, 0.3]}, "[bodies.knuckle] com_mm", "metres"),
     (WISHBONE, {"bodies.knuckle.com_mm.y": 710.0}, "[bodies.knuckle] com_mm", "sign of y"),
+    (
+        WISHBONE,
+        {"bushings": {"lower_arm_rear": {"axial_N_per_mm": 0.5}}},
+        "axial_N_per_mm",
+        "kN/mm",
+    ),
+    (
+        WISHBONE,
+        {"bushings": {"lower_arm_rear": {"radial_N_per_mm": [9e2, 4e5]}}},
+        "radial_N",
+        "N/m?",
+    ),
 ]
 
 
