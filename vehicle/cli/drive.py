@@ -1,6 +1,8 @@
 """``kintrafo drive``: manoeuvres of a car that drives."""
 
-from typing import TYPE_CHECKING, Annotated, Literal
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from ...core.tabulated import significant, whole
 from ...terminal.console import console, print_json, problems, progress_bar, table
@@ -8,11 +10,9 @@ from ..data.starter import manoeuvres
 from .loading import car_of, derived, naming, note_unused
 from .options import argument, option
 from .outputs import (
-    Animation,
-    DataOptions,
     Loads,
+    MotionOptions,
     Outputs,
-    SingleFigureOptions,
     end_if_not_valid,
     name_files,
     title_of,
@@ -20,6 +20,7 @@ from .outputs import (
 from .road import RoadOptions
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from pathlib import Path
 
     from rich.table import Table
@@ -40,6 +41,13 @@ EXAMPLES = (
     "kintrafo drive driving_car --manoeuvre straight --grade 8 --crossfall 3",
     "kintrafo new my_step.toml --template step_steer",
 )
+
+
+@dataclass(frozen=True)
+class DriveOutput(MotionOptions):
+    """The options of the motion of a car, and of the loads on its parts."""
+
+    loads: Loads = None
 
 
 def command(
@@ -66,9 +74,7 @@ def command(
         float,
         option("Slope across the car, positive if the road falls to the right.", "%"),
     ] = 0.0,
-    animate: Animation = None,
-    loads: Loads = None,
-    output: SingleFigureOptions,
+    output: DriveOutput,
 ) -> None:
     """Drive a car through a manoeuvre: step steer, circle, lane change, braking, and others.
 
@@ -82,28 +88,18 @@ def command(
     ones are printed.
     """
     from ...core.errors import InputError
-    from ...core.files import refuse
     from ...datasets import export
     from ..analysis import handling
-    from ..analysis import loads as study
-    from ..plots.motion import ENDINGS
 
-    changes = {"speed_km_per_h": speed, "turn": turn}
-    chosen = handling.load_manoeuvre(
-        manoeuvre, {name: value for name, value in changes.items() if value is not None}
-    )
+    changes = {"--speed": ("speed_km_per_h", speed), "--turn": ("turn", turn)}
+    chosen = _manoeuvre(manoeuvre, {n: one for n, one in changes.items() if one[1] is not None})
     pages = (*_drawn(chosen), *(("_path",) if chosen.TRAVELS else ()))
     own = [] if manoeuvre in manoeuvres() else [manoeuvre]
     own += [road.name] if road.is_measured else []
     outputs = output.files(file, *own, suffixes=chosen.CURVES, drawn=pages)
-    on_parts = DataOptions(loads, output.force).files(file, *own)
-    further = [*(loads or ()), *([] if animate is None else [animate])]
-    refuse([*outputs.data, *outputs.pages, *further], **outputs.rule)
-    if further and not chosen.TRAVELS:
+    if not chosen.TRAVELS and (outputs.loads or outputs.animation is not None):
         problem = f"{chosen.TITLE} {_NO_MOTION}"
-        raise InputError([problem], "--loads" if loads else "--animate")
-    if animate is not None:
-        refuse([animate], endings=ENDINGS, **outputs.rule)
+        raise InputError([problem], "--loads" if outputs.loads else "--animate")
     slope = _slope(chosen, grade, crossfall)
     assembly, profile = _on_road(file, chosen, road)
     with progress_bar(chosen.TITLE) as progress:
@@ -113,17 +109,12 @@ def command(
         )  # fmt: skip
     title = f"{title_of(file)}: {found.metrics.attrs['title']}"
     written = _write(outputs, found, chosen, title)
-    if animate is not None:
-        from ..plots.motion import animate as written_motion
-
-        with problems.status("animation"):
-            written.append(written_motion(found, animate, title=title, **outputs.rule))
+    written += outputs.write_animation(found, title)
     made = _tables(found, title)
-    if loads:
+    if outputs.loads:
         with problems.status("loads"):
             on_every = handling.dynamic_loads(found)
-        sheets = study.workbook(on_every)
-        written += on_parts.write_data(on_every, rows=study.table(on_every), sheets=sheets)
+        written += outputs.write_loads(on_every)
         made.append(_greatest(on_every, title))
     if output.json:
         print_json({"metrics": export.as_dict(found.metrics), "not_valid": found.not_valid})
@@ -133,6 +124,24 @@ def command(
             console.print(each)
         name_files(written)
     end_if_not_valid(found.not_valid)
+
+
+def _manoeuvre(name: str, changes: "Mapping[str, tuple[str, Any]]") -> "Manoeuvre":
+    """Return a manoeuvre with keys and values of options, which its problems name."""
+    from ...core.errors import InputError
+    from ..analysis.handling import load_manoeuvre
+
+    try:
+        return load_manoeuvre(name, dict(changes.values()))
+    except InputError as error:
+        problems = list(error.problems)
+        for option, (key, _) in changes.items():
+            named = re.compile(rf"^{key}\b(?: =)?|\b{key} =")
+            problems = [named.sub(option, problem) for problem in problems]
+        words = " is not a known key.", ": this manoeuvre has no such key."
+        problems = [problem.replace(*words) for problem in problems]
+        of_option = any(problem.startswith("--") for problem in problems)
+        raise InputError(problems, "drive" if of_option else error.source) from None
 
 
 def _slope(chosen: "Manoeuvre", grade: float, crossfall: float) -> "Slope":

@@ -1,7 +1,7 @@
 """Data files, figures and hardpoint files: their options, and functions to write them."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypedDict
 
@@ -89,7 +89,8 @@ class _Files:
 
         data, pages = getattr(self, "out", None) or (), getattr(self, "plot", None) or ()
         formats = getattr(self, "formats", None) or ()
-        for path in data:
+        loads, animation = getattr(self, "loads", None) or (), getattr(self, "animate", None)
+        for path in (*data, *loads):
             export.check_format(path)
         if pages or formats:
             from ..plots import curves as plots
@@ -100,11 +101,17 @@ class _Files:
         files, planned = (
             [_named(path, end) for end in ends for path in paths] for paths, ends in named
         )
-        refuse([*files, *planned], **rule)
+        refuse([*files, *planned, *loads, *([] if animation is None else [animation])], **rule)
         if car is not None:
             refuse([car], endings=[".toml"], **rule)
+        if animation is not None:
+            from ..plots.motion import ENDINGS
+
+            refuse([animation], endings=ENDINGS, **rule)
         figures = getattr(self, "figures", None)
-        return Outputs(rule, data, pages, planned, figures, formats or ("png",), car)
+        return Outputs(
+            rule, data, pages, planned, figures, formats or ("png",), car, loads, animation
+        )
 
 
 @dataclass(frozen=True)
@@ -149,6 +156,13 @@ class SingleFigureOptions(_Files):
 
 
 @dataclass(frozen=True)
+class MotionOptions(SingleFigureOptions):
+    """The options of a command that writes the motion of a car, and its animation."""
+
+    animate: Animation = None
+
+
+@dataclass(frozen=True)
 class CarOptions(_Files):
     """The options of a command that writes a new hardpoint file and a figure."""
 
@@ -176,6 +190,8 @@ class Outputs:
     figures: Path | None = None
     formats: Sequence[str] = ("png",)
     car: Path | None = None
+    loads: Sequence[Path] = ()  # data files of the loads on parts
+    animation: Path | None = None
 
     @property
     def drawn(self) -> bool:
@@ -259,6 +275,22 @@ class Outputs:
             ):
                 written.append(write(shown, path, *rest, **options, **self.rule))
         return written
+
+    def write_loads(self, found: "Dataset") -> list[Path]:
+        """Write the data files of the loads on parts, and return them."""
+        from ..analysis import loads as study
+
+        rows, sheets = study.table(found), study.workbook(found)
+        return replace(self, data=self.loads).write_data(found, rows=rows, sheets=sheets)
+
+    def write_animation(self, found: Any, title: str) -> list[Path]:
+        """Write the animation of a motion, if it is wanted, and return it."""
+        if self.animation is None:
+            return []
+        from ..plots.motion import animate
+
+        with problems.status("animation"):
+            return [animate(found, self.animation, title=title, **self.rule)]
 
     def write_car(self, subject: "Subject", head: str) -> list[Path]:
         """Write the new hardpoint file with a comment at its top, and return it."""

@@ -7,7 +7,7 @@ from ...core.units import KM_PER_H
 from ...terminal.console import console, print_json, problems, table
 from .loading import car_of, derived, naming, note_unused
 from .options import argument, option
-from .outputs import Animation, SingleFigureOptions, end_if_not_valid, name_files, title_of
+from .outputs import MotionOptions, end_if_not_valid, name_files, title_of
 from .road import DURATION, RoadOptions
 
 if TYPE_CHECKING:
@@ -36,8 +36,7 @@ def command(
         option("Duration of the simulation. Default: 30 s; to the end of a measured road.", "S"),
     ] = None,
     output_step: Annotated[float, option("Time between outputs.", "MS")] = 5.0,
-    animate: Animation = None,
-    output: SingleFigureOptions,
+    output: MotionOptions,
 ) -> None:
     """Simulate a car over a road: rest, modes, accelerations, wheel loads, wheel travel.
 
@@ -47,14 +46,12 @@ def command(
     rough road further files, whose names end in _response, have the spectra and the responses to
     the road under each wheel. --animate shows the car on the road in motion.
     """
-    from ...core.files import refuse
     from ...core.validator import Validator
     from ...datasets import export
     from ..analysis import ride
     from ..assembly.quantity import GREATEST_SPEED, LEAST_SPEED
     from ..plots.by_axle import by_axle
-    from ..plots.motion import ENDINGS, shown_names
-    from ..plots.motion import animate as write_motion
+    from ..plots.motion import shown_names
 
     with Validator("kintrafo ride") as given:
         given.number("--speed", speed, "km/h", least=LEAST_SPEED, below=GREATEST_SPEED)
@@ -64,8 +61,6 @@ def command(
     outputs = output.files(
         file, *([road.name] if road.is_measured else []), suffixes=suffixes, drawn=[""]
     )
-    if animate is not None:
-        refuse([animate], endings=ENDINGS, **outputs.rule)
     assembly = car_of(file)
     with naming(file):
         assembly.require_riding()
@@ -89,9 +84,7 @@ def command(
     written = outputs.write(motion, title=title, drawn=drawn, names=shown_names(drawn))
     if "linear" in found:
         written += outputs.write_data(found["linear"], "_response")
-    if animate is not None:
-        with problems.status("animation"):
-            written.append(write_motion(run, animate, title=title, **outputs.rule))
+    written += outputs.write_animation(run, title)
     if output.json:
         judged = {str(n): _judged(d) for n, d in motion.items()}
         shown = {n: export.as_dict(d) for n, d in found.items() if n != "linear"}

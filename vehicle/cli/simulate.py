@@ -1,5 +1,6 @@
 """``kintrafo simulate``: the motion of a suspension, an axle or a car over a road."""
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -10,7 +11,7 @@ from ...terminal.console import console, print_json, problems, say, table
 from ...terminal.exits import Exit
 from .loading import model_of
 from .options import File, option
-from .outputs import CurveOptions, DataOptions, Loads, Outputs, name_files, title_of
+from .outputs import CurveOptions, Loads, Outputs, name_files, title_of
 from .simulation_options import ScenarioOptions, SolverOptions
 
 if TYPE_CHECKING:
@@ -39,6 +40,13 @@ _DRAWN = (
 )  # fmt: skip
 
 
+@dataclass(frozen=True)
+class SimulationOutput(CurveOptions):
+    """The options of curves of a motion, and of the loads on parts."""
+
+    loads: Loads = None
+
+
 def command(
     file: File,
     *,
@@ -48,8 +56,7 @@ def command(
         option("Of an axle: wheels on this road. Default: both.", panel="Road"),
     ] = None,
     solver: SolverOptions,
-    output: CurveOptions,
-    loads: Loads = None,
+    output: SimulationOutput,
 ) -> None:
     """Simulate a suspension, an axle or a car over a step, a sine or a measured road.
 
@@ -57,22 +64,18 @@ def command(
     --height the motion starts at rest on the road. The equations of an axle or a car are derived
     and compiled at first use, which takes up to a minute.
     """
-    from ...core.files import refuse
     from ..corner.wheel_loads import UNITS
 
     outputs = output.files(file, driven.measured)
-    on_parts = DataOptions(loads, output.force).files(file, driven.measured)
-    refuse([*outputs.data, *outputs.pages, *on_parts.data], **outputs.rule)
     scenario = driven.scenario()
     model = model_of(file, wheel_loads=not UNITS.keys().isdisjoint(scenario.inputs))
     run = _Run(model, file, scenario, wheels)
     result, motion = _played(run, solver.of_simulate(), outputs, silent=output.json)
     written = _written(run, motion, outputs, title_of(file))
-    if loads:
-        from ..analysis import loads as study
+    if outputs.loads:
+        from ..analysis.loads import along
 
-        found = study.along(model, result)
-        written += on_parts.write_data(found, rows=study.table(found), sheets=study.workbook(found))
+        written += outputs.write_loads(along(model, result))
     left = result.validity
     if output.json:
         print_json(_summary(result, motion, run))

@@ -144,6 +144,8 @@ def test_mistakes_are_named_before_equations_are_derived(ends):
         "driving_car --manoeuvre step_ster",
         "driving_car --manoeuvre constant_speed_circle --speed 0",
         "driving_car --speed -5",
+        "driving_car --manoeuvre coast_down --turn left",
+        "driving_car --manoeuvre braking --speed 5",
         "driving_car --manoeuvre circle --speed 50",
         "driving_car --manoeuvre circle --animate a.gif",
         "driving_car --manoeuvre parking --loads a.csv",
