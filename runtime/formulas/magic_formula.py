@@ -116,7 +116,7 @@ def stiffnesses(a: Arithmetic, p: Coefficients, c: Contact) -> tuple[Any, Any]:
 
 
 @dataclass(frozen=True)
-class _Side:
+class _PureSlip:
     """A force at pure slip along one axis; forces are per load."""
 
     # K / Fz and mu
@@ -159,7 +159,7 @@ def _bent(a: Arithmetic, name: str, x: Any, curvature: Any, shape: Any) -> Any:
     return a.define(f"{name}_angle", shape * a.atan(bent))
 
 
-def _longitudinal(a: Arithmetic, p: Coefficients, c: Contact, dfz: Any, form: Form) -> _Side:
+def _longitudinal(a: Arithmetic, p: Coefficients, c: Contact, dfz: Any, form: Form) -> _PureSlip:
     """Return the longitudinal force at pure slip (4.E9 to 4.E18)."""
     shape, inclination = p["PCX1"] * p["LCX"], c.inclination * p["LGAX"]
     peak = (p["PDX1"] + p["PDX2"] * dfz) * (1 - p["PDX3"] * inclination * inclination)
@@ -174,12 +174,12 @@ def _longitudinal(a: Arithmetic, p: Coefficients, c: Contact, dfz: Any, form: Fo
     bend = a.define("x_bend", stiffness / (shape * peak))
     angle = _bent(a, "x", bend * slip, a.define("x_curvature", curvature), shape)
     friction = a.define("x_friction", peak * a.sin(angle))
-    return _Side(stiffness, peak, bend, slip, shift, friction, vertical)
+    return _PureSlip(stiffness, peak, bend, slip, shift, friction, vertical)
 
 
 def _lateral(
     a: Arithmetic, p: Coefficients, c: Contact, dfz: Any, inclination: Any, form: Form, name: str
-) -> _Side:
+) -> _PureSlip:
     """Return the lateral force at pure slip (4.E19 to 4.E30)."""
     shape, square = p["PCY1"] * p["LCY"], inclination * inclination
     peak = (p["PDY1"] + p["PDY2"] * dfz) * (1 - p["PDY3"] * square)
@@ -204,7 +204,7 @@ def _lateral(
     bend = a.define(f"{name}_bend", stiffness / (shape * peak))
     angle = _bent(a, name, bend * slip, curvature, shape)
     friction = a.define(f"{name}_friction", peak * a.sin(angle))
-    return _Side(stiffness, peak, bend, slip, shift, friction, vertical)
+    return _PureSlip(stiffness, peak, bend, slip, shift, friction, vertical)
 
 
 def _slip_stiffness(a: Arithmetic, p: Coefficients, c: Contact, dfz: Any) -> Any:
@@ -222,7 +222,7 @@ def _cornering(a: Arithmetic, p: Coefficients, c: Contact, inclination: Any, squ
 
 
 def _weighted(
-    a: Arithmetic, p: Coefficients, c: Contact, dfz: Any, x: _Side, y: _Side, form: Form
+    a: Arithmetic, p: Coefficients, c: Contact, dfz: Any, x: _PureSlip, y: _PureSlip, form: Form
 ) -> tuple[Any, Any, Any]:
     """Return both weights of combined slip, and the lateral force that slip induces [N]."""
     del x, form
@@ -257,7 +257,7 @@ def _cosine(a: Arithmetic, tangent: Any) -> Any:
 
 
 def _ellipse(
-    a: Arithmetic, p: Coefficients, c: Contact, dfz: Any, x: _Side, y: _Side, form: Form
+    a: Arithmetic, p: Coefficients, c: Contact, dfz: Any, x: _PureSlip, y: _PureSlip, form: Form
 ) -> tuple[Any, Any, Any]:
     """Return both weights by the friction ellipse of Adams/Tire, which induces no force.
 
@@ -276,7 +276,7 @@ def _ellipse(
     return a.define("gx", gx), a.define("gy", gy), 0
 
 
-def _per_slip(side: _Side, slip: Any) -> Any:
+def _per_slip(side: _PureSlip, slip: Any) -> Any:
     """Return a force per load over its slip; at zero slip the stiffness."""
     small = _NEAR_ZERO * _NEAR_ZERO
     return (side.friction * slip + side.stiffness * small) / (slip * slip + small)
@@ -287,7 +287,7 @@ def _share(a: Arithmetic, ratio: Any) -> Any:
 
 
 def _aligning(
-    a: Arithmetic, p: Coefficients, c: Contact, dfz: Any, x: _Side, y: _Side, form: Form
+    a: Arithmetic, p: Coefficients, c: Contact, dfz: Any, x: _PureSlip, y: _PureSlip, form: Form
 ) -> tuple[Any, Any]:
     """Return pneumatic trail and residual moment (4.E33 to 4.E47, 4.E73 to 4.E78)."""
     inclination = c.inclination * p["LGAZ"]

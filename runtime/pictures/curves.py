@@ -373,7 +373,7 @@ def _with_sign(data: xr.DataArray) -> str:
 
 
 @dataclass(frozen=True)
-class _Named:
+class _Legend:
     """The lines of a legend, their names, and its title."""
 
     handles: Sequence[Any] = ()
@@ -407,8 +407,8 @@ def _name_lines(result: Figure, page: _Page, *, vertical: bool) -> None:
         room = _NAME * (1 + len(once.labels)) / float(page.shape[1])
         for axes, data in zip(page.panels, page.curves, strict=True):
             if in_each or (high and axes.get_subplotspec().is_first_col()):
-                _name_above(axes, _named_lines(axes, data) if data.ndim > 1 else _Named(), room)
-        lines = _Named() if in_each else once
+                _name_above(axes, _named_lines(axes, data) if data.ndim > 1 else _Legend(), room)
+        lines = _Legend() if in_each else once
     if len(page.panels) > 1 or page.alone or marks or once is not None:
         _legend_below(result, lines, marks, alone=page.alone and once is None)
     elif lines.handles:
@@ -416,7 +416,7 @@ def _name_lines(result: Figure, page: _Page, *, vertical: bool) -> None:
         axes.legend(lines.handles, lines.labels, title=lines.title, loc="best", fontsize=8)
 
 
-def _name_above(axes: Axes, lines: _Named, room: float) -> None:
+def _name_above(axes: Axes, lines: _Legend, room: float) -> None:
     """Name the lines above them in a part `room` of a panel, whose axis is extended for the names.
 
     Its vertical axis is that of the position, so that no curve is there.
@@ -430,7 +430,7 @@ def _name_above(axes: Axes, lines: _Named, room: float) -> None:
         )  # fmt: skip
 
 
-def _unnamed(page: _Page) -> _Named:
+def _unnamed(page: _Page) -> _Legend:
     """Name few lines beside them if a panel has space; return those that need a legend.
 
     Of several families without space in all of their panels, such as wheels and axles, the first
@@ -448,10 +448,10 @@ def _unnamed(page: _Page) -> _Named:
     for axes, data in panels[1:]:
         lines = _named_lines(axes, data)
         axes.legend(lines.handles, lines.labels, title=lines.title, loc="best", fontsize=8)
-    return _named_lines(*panels[0]) if panels else _Named()
+    return _named_lines(*panels[0]) if panels else _Legend()
 
 
-def _named_once(panels: Array, curves: Sequence[xr.DataArray]) -> _Named | None:
+def _named_once(panels: Array, curves: Sequence[xr.DataArray]) -> _Legend | None:
     """Return the names of the lines if they are the same in all panels, else None."""
     found = [(axes, data) for axes, data in zip(panels, curves, strict=True) if data.ndim > 1]
     if not found or any(_family(data) is None for _, data in found):
@@ -464,14 +464,14 @@ def _drawn_lines(axes: Axes, count: int) -> list[Line2D]:
     return [line for line in axes.get_lines() if line.get_linestyle() != "None"][:count]
 
 
-def _named_lines(axes: Axes, data: xr.DataArray) -> _Named:
+def _named_lines(axes: Axes, data: xr.DataArray) -> _Legend:
     along, lines = _lines(data)
     across = next(d for d in data.dims if d != along)
     title = None if _has_names(data, str(across)) else long_name(data[across])
-    return _Named(_drawn_lines(axes, len(lines)), [label for label, _ in lines], title)
+    return _Legend(_drawn_lines(axes, len(lines)), [label for label, _ in lines], title)
 
 
-def _legend_below(result: Figure, lines: _Named, marks: Mapping[str, Any], *, alone: bool) -> None:
+def _legend_below(result: Figure, lines: _Legend, marks: Mapping[str, Any], *, alone: bool) -> None:
     """Name lines, and marks of targets and limits, below panels that keep their size."""
     names = [*lines.labels, *marks]
     if not names:

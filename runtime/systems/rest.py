@@ -73,11 +73,11 @@ def rest(
     held = inputs_of(start, system.names_of_states)
     known = {} if held is None else dict(zip(system.input_names, held.tolist(), strict=True))
     own = system.inputs({**known, **acting})
-    found = _Search(system, own).from_state(np.array(state))
+    found = _RestSearch(system, own).from_state(np.array(state))
     return State.of(found, own, system.names_of_states)
 
 
-class _Search:
+class _RestSearch:
     """Newton's method on the accelerations of a system under given inputs, at rest.
 
     The unknowns are the positions and the internal states of forces, whose rates are zero, too.

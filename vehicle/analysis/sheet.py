@@ -126,7 +126,7 @@ def sheet(
 
 
 @dataclass(frozen=True)
-class _Row:
+class _SheetRow:
     """A quantity of the sheet, of a wheel or of an axle."""
 
     part: str  # of the sheet
@@ -138,7 +138,7 @@ class _Row:
 
 def _rows_of(
     assembly: HeldAssembly, end: str, bushings: Mapping[str, Any] | None, held: WheelSupport
-) -> Iterator[_Row]:
+) -> Iterator[_SheetRow]:
     """Yield the rows of a suspension or an axle at an end of a car, in the order of the sheet."""
     known: dict[str, xr.DataArray] = {}
     steering = () if assembly.steering_motion is None else (assembly.steering_motion,)
@@ -156,7 +156,7 @@ def _rows_of(
                 data = known[name].sel({WHEEL: wheel}) if wheel else known[name]
                 column = "_".join(filter(None, (name, end, wheel)))
                 place = " ".join(filter(None, (end, wheel or at_axle)))
-                yield _Row(part, column, name, place, data)
+                yield _SheetRow(part, column, name, place, data)
 
 
 def tabulated(found: xr.Dataset, title: str) -> list[Tabulated]:
@@ -269,7 +269,7 @@ def _rows(here: xr.Dataset, places: Iterable[str]) -> Iterator[tuple[str, ...]]:
         yield (words, *cells.values(), *signs)
 
 
-def _dataset(rows: Sequence[_Row], held: WheelSupport) -> xr.Dataset:
+def _dataset(rows: Sequence[_SheetRow], held: WheelSupport) -> xr.Dataset:
     iso = np.array([displayed(row.data).item() for row in rows])
     signs = [str(row.data.attrs.get("sign", "")) for row in rows]
     flipped = [sign.replace(_LEFTWARD, _RIGHTWARD) for sign in signs]

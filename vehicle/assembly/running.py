@@ -33,10 +33,10 @@ def straight(
     velocity of the body, the spin of the wheels, the deflections of the tyres, drive torque and
     rack. Every acceleration vanishes, and the velocity of the body along x is given.
     """
-    return _Search(model, wheels, speed).from_rest(*rest)
+    return _StraightSearch(model, wheels, speed).from_rest(*rest)
 
 
-class _Search:
+class _StraightSearch:
     def __init__(self, model: CarModel, wheels: Mapping[str, WheelNames], speed: float) -> None:
         self.model, self.wheels, self.speed = model, wheels, speed
         layout, self.names = model.layout, list(model.state_names)

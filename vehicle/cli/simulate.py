@@ -69,7 +69,7 @@ def command(
     outputs = output.files(file, driven.measured)
     scenario = driven.scenario()
     model = model_of(file, wheel_loads=not UNITS.keys().isdisjoint(scenario.inputs))
-    run = _Run(model, file, scenario, wheels)
+    run = _ScenarioRun(model, file, scenario, wheels)
     result, motion = _played(run, solver.of_simulate(), outputs, silent=output.json)
     written = _written(run, motion, outputs, title_of(file))
     if outputs.loads:
@@ -91,7 +91,7 @@ def command(
         raise typer.Exit(Exit.REFUSED)
 
 
-class _Run:
+class _ScenarioRun:
     """A model and its scenario, checked against options that are not for its file."""
 
     def __init__(self, model: Any, file: str, scenario: "Scenario", wheels: str | None) -> None:
@@ -126,7 +126,7 @@ def _note_free_rack(file: str, inputs: dict[str, Any]) -> None:
 
 
 def _played(
-    run: _Run, options: dict[str, Any], outputs: Outputs, *, silent: bool
+    run: _ScenarioRun, options: dict[str, Any], outputs: Outputs, *, silent: bool
 ) -> "tuple[Simulation, Dataset]":
     """Simulate; if the integration stops early, write the motion up to there and raise."""
     from ...simulation.result import SimulationError
@@ -147,7 +147,7 @@ def _played(
         raise SimulationError(reason, error.time, error.state, error.partial, advice) from error
 
 
-def _written(run: _Run, motion: "Dataset", outputs: Outputs, title: str) -> list[Path]:
+def _written(run: _ScenarioRun, motion: "Dataset", outputs: Outputs, title: str) -> list[Path]:
     """Write the motion; its page has the curves that are not constant."""
     from ..analysis.scenario import by_wheel
 
@@ -158,7 +158,7 @@ def _written(run: _Run, motion: "Dataset", outputs: Outputs, title: str) -> list
     return outputs.write(motion, title=title, names=varying, drawn=drawn)
 
 
-def _crossings(result: "Simulation", run: _Run) -> dict[str, list[float]]:
+def _crossings(result: "Simulation", run: _ScenarioRun) -> dict[str, list[float]]:
     """Return the times [s] at which each wheel left and touched the ground."""
     names = [
         f"{own.prefix}wheel_{what}_ground"
@@ -175,7 +175,7 @@ def _counts(result: "Simulation") -> dict[str, int]:
     return {name: int(result[name]) for name in names if name in result}
 
 
-def _summary(result: "Simulation", motion: "Dataset", run: _Run) -> dict[str, Any]:
+def _summary(result: "Simulation", motion: "Dataset", run: _ScenarioRun) -> dict[str, Any]:
     from ...datasets.recording import statistics
 
     return {
@@ -194,7 +194,7 @@ def _summary(result: "Simulation", motion: "Dataset", run: _Run) -> dict[str, An
     }
 
 
-def _table(motion: "Dataset", run: _Run) -> "Table":
+def _table(motion: "Dataset", run: _ScenarioRun) -> "Table":
     from ...core.quantities import display_of, heading_of
     from ...datasets.recording import statistics
 
@@ -208,7 +208,7 @@ def _table(motion: "Dataset", run: _Run) -> "Table":
     return table(title, columns, rows)
 
 
-def _in_words(result: "Simulation", run: _Run) -> list[str]:
+def _in_words(result: "Simulation", run: _ScenarioRun) -> list[str]:
     """Return sentences on the solver, the body, and wheels that left the ground."""
     crossings, counts = _crossings(result, run), _counts(result)
     lines = [f"{result.solver}: " + ", ".join(_WORDS[n].format(v) for n, v in counts.items())]

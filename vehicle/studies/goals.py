@@ -409,7 +409,7 @@ def limits_of(given: Validator, described: Mapping[str, Any], axes: Sequence[str
 
 
 @dataclass(frozen=True)
-class _Table:
+class _GoalTable:
     """A table of a file for one characteristic."""
 
     given: Validator
@@ -448,7 +448,7 @@ class _Table:
 
 def _tables(
     given: Validator, described: Mapping[str, Any], of: tuple[str, Sequence[str]], keys: set[str]
-) -> Iterable[tuple[str, _Table]]:
+) -> Iterable[tuple[str, _GoalTable]]:
     section, axes = of
     for name, table in (
         (str(name), table)
@@ -486,5 +486,5 @@ def _tables(
         asked = table.get(at_key, factor * sweep_axis(over).at)
         at = given.array(f"{title} {at_key}", asked, unit, dimensions=[0, 1])
         positions = np.atleast_1d(at) / factor
-        found = _Table(given, title, table, over, positions, shown.units, shown.factor)
+        found = _GoalTable(given, title, table, over, positions, shown.units, shown.factor)
         yield from ((column, found) for column in columns)

@@ -83,7 +83,7 @@ def sweep(
         grid = given.mapping("values", values, "places and numbers")
         if not given.failed:
             axes = _axes(given, suspension, grid)
-    cars = _Cars(suspension, axes, scenario)
+    cars = _SweptCars(suspension, axes, scenario)
     for car in range(cars.count):
         cars.prepare(car)
         if progress is not None:
@@ -122,7 +122,7 @@ def _axes(
     return axes
 
 
-class _Cars:
+class _SweptCars:
     """Suspensions over a grid, prepared one after the other."""
 
     def __init__(

@@ -139,7 +139,7 @@ def tolerance(
     seen = within = np.array(reasons == "")
     for limit, found in zip(bounds, limited, strict=True):
         within = within & limit.kept(found[:, 0]).all(axis=1)
-    cars = _Cars(places, off, curves, nominal, values, seen, reasons.astype(str), within)
+    cars = _Sample(places, off, curves, nominal, values, seen, reasons.astype(str), within)
     return _dataset(cars, parts)
 
 
@@ -171,7 +171,7 @@ def _drawn(distribution: str, root: Array, count: int, seed: int) -> Array:
 
 
 @dataclass(frozen=True)
-class _Cars:
+class _Sample:
     """The cars of a study with their curves."""
 
     places: Sequence[DesignVariable]
@@ -200,7 +200,7 @@ def _parts(
     return moved * np.einsum("ij,jnp->inp", root @ root.T, moved)
 
 
-def _dataset(cars: _Cars, parts: Array) -> xr.Dataset:
+def _dataset(cars: _Sample, parts: Array) -> xr.Dataset:
     curves = cars.curves
     along = curves.along
     seen = cars.seen

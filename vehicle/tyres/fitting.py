@@ -142,13 +142,13 @@ def fit(
         given.instance("start", start, MagicFormula, "a tyre of the Magic Formula is needed")
     rows = measured(data)
     _refuse_other_axes(rows, start)
-    problem = _Problem(rows, start, _scales(rows, accuracy))
+    problem = _Residuals(rows, start, _scales(rows, accuracy))
     chosen, left_out = _chosen(problem, coefficients)
     limits = _limits(chosen, start, bounds)
     return _search(problem, chosen, limits, left_out, known_accuracy=accuracy is not None)
 
 
-class _Problem:
+class _Residuals:
     """Residuals as functions of the coefficients."""
 
     def __init__(self, rows: Measured, start: MagicFormula, scales: Mapping[str, float]) -> None:
@@ -222,7 +222,7 @@ def _scales(rows: Measured, accuracy: Mapping[str, float] | None) -> dict[str, f
 
 
 def _chosen(
-    problem: _Problem, coefficients: Iterable[str] | None
+    problem: _Residuals, coefficients: Iterable[str] | None
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Return the fitted coefficients, and the default ones that the data do not determine."""
     start, forces = problem.start, problem.rows.forces
@@ -250,7 +250,7 @@ def _chosen(
     return tuple(kept), tuple(n for n in usual if n not in kept)
 
 
-def _refuse_undetermined(problem: _Problem, names: tuple[str, ...]) -> None:
+def _refuse_undetermined(problem: _Residuals, names: tuple[str, ...]) -> None:
     doubtful = _doubtful(problem, names)
     if doubtful:
         words = "; ".join(
@@ -264,7 +264,7 @@ def _refuse_undetermined(problem: _Problem, names: tuple[str, ...]) -> None:
         raise InputError([undetermined], "fit")
 
 
-def _doubtful(problem: _Problem, names: tuple[str, ...]) -> dict[str, list[str]]:
+def _doubtful(problem: _Residuals, names: tuple[str, ...]) -> dict[str, list[str]]:
     """Return coefficients that the data do not determine, with those of nearly equal effects.
 
     A step of one size along a singular direction changes the scaled forces by the singular value.
@@ -314,7 +314,7 @@ def _limits(
 
 
 def _search(
-    problem: _Problem,
+    problem: _Residuals,
     names: tuple[str, ...],
     limits: tuple[Array, Array],
     left_out: tuple[str, ...],

@@ -68,10 +68,10 @@ def read(path: str | Path) -> TirFile:
     Raises `InputError` if the format is another one, or keys are missing, given twice or not
     numbers; the message lists all problems.
     """
-    return _Reader(read_blocks(path), str(path)).read()
+    return _TirReader(read_blocks(path), str(path)).read()
 
 
-class _Reader:
+class _TirReader:
     def __init__(self, blocks: list[FileBlock], source: str) -> None:
         self._source = source
         self._problems: list[str] = []

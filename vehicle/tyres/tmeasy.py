@@ -106,7 +106,7 @@ class TMeasy(SymmetricTyre):
             )
             raise InputError([problem], str(path))
         older, used = _as_older(data)
-        reader = _Reader(older)
+        reader = _TmeasyReader(older)
         values = dict(reader.values())
         problems = reader.problems or [*_impossible(values)]
         if problems:
@@ -174,7 +174,7 @@ def _polynomial(p: Mapping[str, float]) -> tuple[float, float]:
     return math.sqrt(2.0 * once - twice), (twice - once) / (4.0 * p["nominal_load"])
 
 
-class _Reader:
+class _TmeasyReader:
     """The numbers of a file and the problems found in it."""
 
     def __init__(self, data: Mapping[str, Any]) -> None:

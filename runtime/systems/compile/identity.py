@@ -26,12 +26,12 @@ def identity(model: "Formulation") -> str | None:
     class may call any code, so only the derived equations identify it.
     """
     try:
-        return _Reader().read(model).hex()
+        return _Hashes().read(model).hex()
     except _UnknownError:
         return None
 
 
-class _Reader:
+class _Hashes:
     """Hashes values, each object once: many others refer to a point."""
 
     def __init__(self) -> None:

@@ -64,12 +64,14 @@ class Connections:
     def __init__(
         self, sides: Sequence[tuple[PartPoses, CompliantJoints]], bar: AnyBar | None = None
     ) -> None:
-        self._sides: list[_Side] = []
+        self._sides: list[_ConnectedSide] = []
         centers = [np.zeros((len(sides[0][0].states), 3))]
         for poses, soft in sides:
             begin = len(centers)
             parts = poses.structure.parts
-            self._sides.append(_Side(poses, soft, {p: begin + i for i, p in enumerate(parts)}))
+            self._sides.append(
+                _ConnectedSide(poses, soft, {p: begin + i for i, p in enumerate(parts)})
+            )
             centers += [poses.centers[part] for part in parts]
         if sides[0][1].rack:
             for side in self._sides:
@@ -141,7 +143,7 @@ class Connections:
         ]
 
 
-class _Side:
+class _ConnectedSide:
     """The measures between the bodies of one suspension."""
 
     centers: Array  # of all bodies with rigid joints, (n, bodies, 3) [m]

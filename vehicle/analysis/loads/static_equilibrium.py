@@ -64,7 +64,7 @@ def static_equilibrium(assembly: HeldAssembly, loads: AppliedLoads) -> tuple[Arr
     found, why, first = [], [], 0
     for one in assembly.independent:
         own = slice(first, first + len(one.wheels))
-        search = _Search.of(one, loads.on(own))
+        search = _CoupledSearch.of(one, loads.on(own))
         search.go()
         found.append(search.coordinates)
         several = len(one.wheels) < len(assembly.wheels)
@@ -77,7 +77,7 @@ def static_equilibrium(assembly: HeldAssembly, loads: AppliedLoads) -> tuple[Arr
 
 
 @dataclass(frozen=True)
-class _Search:
+class _CoupledSearch:
     """The search for equilibria of coupled wheels in n cases, whose arrays change in place."""
 
     assembly: HeldAssembly
@@ -89,7 +89,7 @@ class _Search:
     reasons: list[str]  # why a case has no equilibrium
 
     @classmethod
-    def of(cls, assembly: HeldAssembly, loads: AppliedLoads) -> "_Search":
+    def of(cls, assembly: HeldAssembly, loads: AppliedLoads) -> "_CoupledSearch":
         """Return a search that begins at design, or at the given travel of held wheels."""
         count = len(loads.racks)
         coordinates = np.tile(assembly.design_wheel_coordinates, (count, 1))

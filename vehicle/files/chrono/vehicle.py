@@ -103,7 +103,7 @@ def read_vehicle(path: str | Path, *, tire: str | Path | None = None) -> Importe
         given.path("path", path)
         if tire is not None:
             given.path("tire", tire)
-    reader = _Reader(Path(path), None if tire is None else Path(tire))
+    reader = _VehicleReader(Path(path), None if tire is None else Path(tire))
     return reader.read()
 
 
@@ -129,7 +129,7 @@ class _Axle(NamedTuple):
         return 2.0 * (wheel + sum(body.mass for _, body in parts))
 
 
-class _Reader:
+class _VehicleReader:
     """The reader of a vehicle's file and those that it names."""
 
     def __init__(self, path: Path, tire: Path | None) -> None:

@@ -17,11 +17,11 @@ _ABOVE = 6  # folders above a file in which others are searched
 _SHOWN = 6
 
 
-class _Named(Part):
+class _NamedFile(Part):
     file: str = Field(alias="Input File")
 
 
-class SteeringPlace(_Named):
+class SteeringPlace(_NamedFile):
     """A steering subsystem, and its position."""
 
     UNREAD: ClassVar[frozenset[str]] = frozenset({"Output"})
@@ -51,7 +51,7 @@ class AxlePlace(Part):
     tire: str | None = Field(default=None, alias="Tire Input File")
 
 
-class DrivelinePlace(_Named):
+class DrivelinePlace(_NamedFile):
     """The driveline, and the axles that it drives."""
 
     UNREAD: ClassVar[frozenset[str]] = frozenset({"Output"})
@@ -66,7 +66,7 @@ class VehicleFile(Part):
 
     type: Literal["Vehicle"] = Field(alias="Type")
     template: Literal["WheeledVehicle"] = Field(alias="Template")
-    chassis: _Named = Field(alias="Chassis")
+    chassis: _NamedFile = Field(alias="Chassis")
     rear_chassis: tuple[Any, ...] = Field(default=(), alias="Rear Chassis")
     subchassis: tuple[Any, ...] = Field(default=(), alias="Subchassis")
     axles: tuple[AxlePlace, ...] = Field(alias="Axles")

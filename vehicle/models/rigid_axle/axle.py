@@ -252,13 +252,13 @@ class BeamAxle(WholeAxle):
                 )
 
 
-class _Key(WholeAxle):
+class _RigidAxleKey(WholeAxle):
     """The top-level key of the file; as the last base it has the first field of `RigidAxle`."""
 
     rigid_axle: End = Field(description='where the axle is: "front" or "rear"')
 
 
-class RigidAxle(BeamAxle, _Key):
+class RigidAxle(BeamAxle, _RigidAxleKey):
     """A beam with two wheels on four rods, at its design position. Immutable.
 
     Make one with `load`, `from_dict` or `with_changes`. The attributes are the sections of the

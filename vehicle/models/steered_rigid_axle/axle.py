@@ -43,7 +43,7 @@ _DRIVEN = (
 _KNUCKLES, _DRAG_LINK, _TRACK_ROD = "#4a525a", "#8c564b", "#17becf"
 
 
-class _Key(WholeAxle):
+class _SteeredRigidAxleKey(WholeAxle):
     """The top-level key of the file; as the last base it has the first field of the axle."""
 
     steered_rigid_axle: Literal["front"] = Field(description='where the axle is: "front"')
@@ -65,7 +65,7 @@ class _RefusedDrive(AxleDrive):
     share: Share = 0.0
 
 
-class SteeredRigidAxle(BeamAxle, _Key):
+class SteeredRigidAxle(BeamAxle, _SteeredRigidAxleKey):
     """A rigid axle with steered wheels, at its design position; see `WholeAxle`.
 
     Its beam is on four rods. A drag link turns one knuckle, and a track rod the other one.
