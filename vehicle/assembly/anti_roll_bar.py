@@ -24,9 +24,11 @@ from .part_poses import CornerParts
 class _Elastic:
     rate: float  # torque, or moment, per twist [N m/rad]
 
+    free_twist = 0.0  # the twist without a torque [rad]
+
     def torque(self, twist: Array) -> Array:
         """Return the torque, or the moment, at a twist [N m]."""
-        return self.rate * twist
+        return self.rate * (twist - self.free_twist)
 
 
 @dataclass(frozen=True)
@@ -34,10 +36,7 @@ class Bar(_Elastic):
     """An anti-roll bar between two sides: its twist is the first half's angle less the second's."""
 
     halves: tuple[HalfBar, HalfBar]  # by side
-    free_twist: float  # the twist without a torque [rad]
-
-    def torque(self, twist: Array) -> Array:
-        return super().torque(twist - self.free_twist)
+    free_twist: float
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from .coupling import BodyPose
 from .load import Load, known
 from .measures.measure import Measure, values
 from .part_poses import PartPoses, states_with
-from .quantity import RACK, Quantity, displaced_by
+from .quantity import RACK, TRAVEL, Quantity, displaced_by
 from .rig import STEERING, RestConditions, RigMotion, RigPosition, SweepRange, WheelReach
 from .soft_lines import SoftLines
 
@@ -211,11 +211,18 @@ class Assembly(ABC):
 
     def held_in(self, motion: str, travel: float, rack: float) -> dict[Quantity, float]:
         """Return the constant quantities of a motion, for the coordinates of its results."""
+        if motion in STEERING:
+            return {TRAVEL: travel}
         return {self.steering_displacement: rack} if self.steered else {}
 
-    @abstractmethod
     def refuse_holding(self, given: Validator, motion: str, travel: float, rack: float) -> None:
         """Refuse a constant travel, or a constant rack, that the motion itself moves."""
+        if rack:
+            self.refuse_unsteered(given, "rack_position")
+        if motion in STEERING and rack:
+            given.fail(f"rack_position: the motion {motion!r} moves the rack. Leave it out.")
+        if motion not in STEERING and travel:
+            given.fail(f"travel: in the motion {motion!r} wheels move by along. Leave it out.")
 
     def refuse_motion(self, motion: str) -> None:
         """Raise an `InputError` for a motion of the steering if its wheels are not steered."""

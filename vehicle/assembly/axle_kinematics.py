@@ -145,7 +145,7 @@ class AxleKinematics(TwoWheels):
 
     # -- steered ----------------------------------------------------------------------------------
 
-    @property
+    @cached_property
     def design_track(self) -> float:
         """The distance of the wheel centres at design [m]."""
         return motions.track(self.axle)

@@ -195,11 +195,6 @@ class CarAssembly(Assembly):
         """Return the distance of an axle in front of the body's centre of mass [m]."""
         return float(self.car.axle_positions[end] - self.car.com[0])
 
-    def refuse_holding(self, given: Validator, motion: str, travel: float, rack: float) -> None:
-        """Refuse a travel: the body moves over all wheels."""
-        if travel:
-            given.fail(f"travel: the motion {motion!r} moves the body by along. Leave it out.")
-
     def measures(self, motion: str) -> tuple[Measure, ...]:
         own = {end: part.measures(self._motion_of(part, motion)) for end, part in self.held.items()}
         return measures_of_axles(own) if self.axles else own[""]

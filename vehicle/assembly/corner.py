@@ -22,7 +22,7 @@ from .measures.corner import OF_STEERING, OVER_RACK, OVER_TRAVEL
 from .measures.measure import Measure
 from .mirrored_corner import MirroredCorner
 from .part_poses import CornerParts, PartPoses
-from .quantity import TRAVEL, Quantity
+from .quantity import TRAVEL
 from .rest import forces_of, nearest
 from .rig import RestConditions, RigMotion, RigPosition, SweepRange, WheelReach
 from .soft_lines import SoftLines, soft_lines
@@ -66,16 +66,6 @@ class CornerAssembly(HeldAssembly):
         if motion == "rack":
             return RigPosition({self.wheels[0]: np.full_like(along, travel)}, along)
         return self.at_travel(along, rack)
-
-    def held_in(self, motion: str, travel: float, rack: float) -> dict[Quantity, float]:
-        return {TRAVEL: travel} if motion == "rack" else super().held_in(motion, travel, rack)
-
-    def refuse_holding(self, given: Validator, motion: str, travel: float, rack: float) -> None:
-        """Refuse a travel of the wheel in a motion that moves it, or a rack that is moved."""
-        if motion == "rack" and rack:
-            given.fail("rack_position: the motion 'rack' moves the rack. Leave it out.")
-        if motion != "rack" and travel:
-            given.fail("travel: the motion 'travel' moves the wheel by along. Leave it out.")
 
     @property
     def coordinates(self) -> tuple[str, ...]:

@@ -7,12 +7,13 @@ from functools import cached_property
 import numpy as np
 
 from ...core.named_types import Array
-from ..corner.corner import Corner, Vehicle
+from ..corner.corner import Corner
+from .two_wheels import SteerableWheels
 from .wheel import steer, toe
 
 
 @dataclass(frozen=True)
-class MirroredCorner:
+class MirroredCorner(SteerableWheels):
     """A corner in n positions."""
 
     corner: Corner
@@ -22,15 +23,10 @@ class MirroredCorner:
     # reach
     straight: Callable[[], Corner | None]
 
-    @property
+    @cached_property
     def corners(self) -> dict[str, Corner]:
         """The corner, by the name of its wheel."""
         return {"left" if self.corner.vehicle.side > 0.0 else "right": self.corner}
-
-    @property
-    def vehicles(self) -> tuple[Vehicle, ...]:
-        """The data of the vehicle."""
-        return (self.corner.vehicle,)
 
     @cached_property
     def _both(self) -> tuple[Corner, Corner]:
@@ -47,19 +43,12 @@ class MirroredCorner:
         """The right wheel."""
         return self._both[1]
 
-    @property
-    def wheelbase(self) -> float:
-        """The wheelbase [m]."""
-        found = self.corner.vehicle.wheelbase
-        assert found is not None  # measures that need it are left out if it is not known
-        return found
-
-    @property
+    @cached_property
     def design_track(self) -> Array:
         """The distance of the wheel centres at design [m]."""
         return 2.0 * abs(self.corner.design_center[..., 1])
 
-    @property
+    @cached_property
     def per_turn(self) -> float | None:
         """Rack travel for one turn of the steering wheel [m]."""
         return self.corner.vehicle.travel_per_turn

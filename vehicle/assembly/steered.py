@@ -12,7 +12,7 @@ from ..models.sides import LEFT, RIGHT, SIDES
 from . import motions
 from .assembly import HeldAssembly
 from .measures.measure import Measure
-from .quantity import ROLL, STEERING_WHEEL, TRAVEL, Quantity
+from .quantity import ROLL, STEERING_WHEEL, TRAVEL
 from .rig import STEERING, RigMotion, RigPosition, SweepRange
 from .steering_wheel import SteeringWheel
 
@@ -128,16 +128,6 @@ class SteerableAssembly(HeldAssembly):
 
         Raises `PositionError` for a roll that is out of reach.
         """
-
-    def held_in(self, motion: str, travel: float, rack: float) -> dict[Quantity, float]:
-        return {TRAVEL: travel} if motion in STEERING else super().held_in(motion, travel, rack)
-
-    def refuse_holding(self, given: Validator, motion: str, travel: float, rack: float) -> None:
-        """Refuse a rack that the motion moves, and a travel that is for steering."""
-        if motion in STEERING and rack:
-            given.fail(f"rack_position: the motion {motion!r} moves the rack. Leave it out.")
-        if motion not in STEERING and travel:
-            given.fail("travel: it is for the motion 'steer'; others move the wheels by along.")
 
 
 def motions_of_two() -> dict[str, RigMotion]:

@@ -168,7 +168,7 @@ class SteeredRigidAxleKinematics(RigidAxleKinematics):
         """The displacement of the Pitman arm's ball along its circle, (n,) [m]."""
         return self.parts.inputs[:, self.model.input_names.index("rack_position")]
 
-    @property
+    @cached_property
     def design_track(self) -> float:
         """The distance of the wheel centres at design [m]."""
         return 2.0 * float(self.axle.half_track)

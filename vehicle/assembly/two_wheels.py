@@ -1,4 +1,4 @@
-"""The base of the kinematics of both wheels of an axle, for formulas of characteristics."""
+"""The bases of the kinematics of both wheels of an axle, for formulas of characteristics."""
 
 from abc import ABC, abstractmethod
 from typing import Any
@@ -8,16 +8,15 @@ from ..corner.corner import Vehicle
 from ..models.sides import LEFT, RIGHT
 
 
-class TwoWheels(ABC):
-    """Both wheels of an axle in n positions, the leading dimension of every array."""
+class SteerableWheels:
+    """Both wheels of an axle, or one with its mirror image, in n positions."""
 
-    axle: Any  # its data, with the reactions of brakes and drive
     corners: Any  # by side, the left one first
-
-    @property
-    def end(self) -> str:
-        """The end of the vehicle, 'front' or 'rear'."""
-        return str(self.axle.end)
+    design_track: Any  # the distance of the wheel centres at design [m]
+    # displacement of the steering for one turn of the steering wheel [m]; None if it is not known
+    per_turn: Any
+    # steer angles without static toe, of the left and the right wheel, (n,) [rad]
+    turned: Any
 
     @property
     def vehicles(self) -> tuple[Vehicle, ...]:
@@ -40,6 +39,17 @@ class TwoWheels(ABC):
         found = self.vehicles[0].wheelbase
         assert found is not None  # measures that need it are left out if it is not known
         return found
+
+
+class TwoWheels(SteerableWheels, ABC):
+    """Both wheels of an axle in n positions, the leading dimension of every array."""
+
+    axle: Any  # its data, with the reactions of brakes and drive
+
+    @property
+    def end(self) -> str:
+        """The end of the vehicle, 'front' or 'rear'."""
+        return str(self.axle.end)
 
     @abstractmethod
     def contact(self, side: str) -> Array:

@@ -114,16 +114,6 @@ class WholeAxleAssembly(SteerableAssembly):
             raise PositionError(message)
         return self._travels(motion, along)
 
-    def refuse_holding(self, given: Validator, motion: str, travel: float, rack: float) -> None:
-        """Refuse a constant travel in motions of the wheels, and a rack that it does not have."""
-        if self.steered:
-            super().refuse_holding(given, motion, travel, rack)
-            return
-        if rack:
-            self.refuse_unsteered(given, "rack_position")
-        if travel:
-            given.fail(f"travel: the motion {motion!r} moves the wheels by along. Leave it out.")
-
     @property
     def coordinates(self) -> tuple[str, ...]:
         return self.model.COORDINATES

@@ -97,16 +97,18 @@ class Connections:
         begin = len(self.laws) - len(lines)
         self.springs = [begin + i for i, line in enumerate(lines) if line.is_spring]
         self.bar = None if bar is None else len(self.laws)
+        if bar is not None:
+            self._groups.append(self._measured(bar))
+            self.laws.append(LinearLaw(bar.rate, -bar.rate * bar.free_twist))
+
+    def _measured(self, bar: AnyBar) -> Any:
+        """Return the measure of the twist of a bar."""
         if isinstance(bar, Bar):
             feet = (side.foot(half) for side, half in zip(self._sides, bar.halves, strict=True))
-            self._groups.append(Bars(*feet))
-            self.laws.append(LinearLaw(bar.rate, -bar.rate * bar.free_twist))
-        elif isinstance(bar, RollBar):
-            self._groups.append(self._sides[0].inclination(bar.body))
-            self.laws.append(LinearLaw(bar.rate))
-        elif bar is not None:
-            self._groups.append(self._sides[0].twist(bar))
-            self.laws.append(LinearLaw(bar.rate))
+            return Bars(*feet)
+        if isinstance(bar, RollBar):
+            return self._sides[0].inclination(bar.body)
+        return self._sides[0].twist(bar)
 
     def index(self, side: int, body: str) -> int:
         """Return the index of a body; fixed ones belong to the ground."""

@@ -6,12 +6,10 @@ relative to those with the rack in its middle position: static toe is left out.
 Source: J. C. Dixon, Suspension Geometry and Computation, Wiley, 2009 (steering).
 """
 
-from typing import Protocol
-
 import numpy as np
 
 from ....core.named_types import Array
-from ...corner.corner import Corner
+from ..two_wheels import SteerableWheels
 from ..wheel import steer_gradient
 
 # A smaller mean steer angle is straight ahead [rad].
@@ -21,50 +19,25 @@ _STRAIGHT = 1e-9
 _STEERED = 1e-4
 
 
-class Steered(Protocol):
-    """Two wheels on one rack: an `AxleKinematics`, or a `MirroredCorner` with its mirror image."""
-
-    @property
-    def left(self) -> Corner:
-        """The left wheel."""
-
-    @property
-    def right(self) -> Corner:
-        """The right wheel."""
-
-    @property
-    def turned(self) -> tuple[Array, Array]:
-        """Steer angles of the left and the right wheel without static toe [rad]."""
-
-    @property
-    def wheelbase(self) -> float:
-        """The wheelbase [m]."""
-
-    @property
-    def design_track(self) -> float | Array:
-        """The distance of the wheel centres at design [m]."""
-
-    @property
-    def per_turn(self) -> float | Array | None:
-        """Rack travel for one turn of the steering wheel [m]; None if not known."""
-
-
-def error_of(of: Steered) -> Array:
+def error_of(of: SteerableWheels) -> Array:
     """Return the Ackermann error of two wheels [rad]; see `ackermann_error`."""
-    return ackermann_error(*of.turned, of.wheelbase, of.design_track)
+    left, right = of.turned
+    return ackermann_error(left, right, of.wheelbase, of.design_track)
 
 
-def percentage_of(of: Steered) -> Array:
+def percentage_of(of: SteerableWheels) -> Array:
     """Return the Ackermann percentage of two wheels [1]; see `ackermann`."""
-    return ackermann(*of.turned, of.wheelbase, of.design_track)
+    left, right = of.turned
+    return ackermann(left, right, of.wheelbase, of.design_track)
 
 
-def circle_of(of: Steered) -> Array:
+def circle_of(of: SteerableWheels) -> Array:
     """Return the turning circle of two wheels [m]; see `turning_circle`."""
-    return turning_circle(*of.turned, of.wheelbase)
+    left, right = of.turned
+    return turning_circle(left, right, of.wheelbase)
 
 
-def ratio_of(of: Steered) -> Array:
+def ratio_of(of: SteerableWheels) -> Array:
     """Return the steering ratio of two wheels [1]; see `steering_ratio`."""
     assert of.per_turn is not None
     gradients = steer_gradient(of.left), steer_gradient(of.right)

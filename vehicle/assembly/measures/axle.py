@@ -1,18 +1,16 @@
 """The measures of an axle of two corners."""
 
-from collections.abc import Callable
 from dataclasses import replace
 
 from .. import wheel
 from ..axle_kinematics import AxleKinematics
 from ..quantity import RACK
 from . import axle_rolling, pitching, rolling
-from .corner import COMPARED, GROUND, PITCH, PLACE, STEERING, TRAVEL
+from .corner import COMPARED, GROUND, PLACE, STEERING, TRAVEL
 from .measure import Measure, of_axle, of_wheel
 
 # Measures of a single wheel that an axle defines by both wheels, and for front and rear.
 _REPLACED = ("roll_center_height_kinematic", "anti_dive", "anti_lift_braked", "arm_rotation")
-_ON_CARRIER = "contact with brakes on the carrier, wheel centre with inboard ones"
 
 
 def _of_each(measures: tuple[Measure, ...]) -> tuple[Measure, ...]:
@@ -22,10 +20,6 @@ def _of_each(measures: tuple[Measure, ...]) -> tuple[Measure, ...]:
 
 def _has_bar(pair: AxleKinematics) -> bool:
     return pair.axle.bar is not None
-
-
-def _is(end: str, *, driven: bool = False) -> Callable[[AxleKinematics], bool]:
-    return lambda pair: pair.end == end and (pair.axle.drive is not None or not driven)
 
 
 PATH = (
@@ -69,23 +63,15 @@ ROLL = (
 )
 """Roll: its geometry, and the forces of springs and bar."""
 
-PITCHING = (
-    of_wheel(
-        "anti_dive", pitching.braking, (*PITCH, "front_brake_share"), _is("front"),
-        "b (L / h) v_x / v_z under braking: brake share b, wheelbase L, height h of the gravity "
-        f"centre; {_ON_CARRIER}",
-    ),
-    of_wheel("anti_lift_driven", pitching.driving, PITCH, _is("front", driven=True)),
-    of_wheel(
-        "anti_lift_braked", pitching.braking, (*PITCH, "front_brake_share"), _is("rear"),
-        f"-(1 - b) (L / h) v_x / v_z under braking: front brake share b; {_ON_CARRIER}",
-    ),
-    of_wheel("anti_squat", pitching.driving, PITCH, _is("rear", driven=True)),
-)  # fmt: skip
+PITCHING = pitching.at_both_ends(
+    of_wheel, "contact with brakes on the carrier, wheel centre with inboard ones"
+)
 """Effects of braking and driving forces, from the wheels' paths."""
 
 _COMPARED = tuple(
-    replace(measure, known_to=_is("front")) if measure.needs == ("wheelbase",) else measure
+    replace(measure, known_to=lambda pair: pair.end == "front")
+    if measure.needs == ("wheelbase",)
+    else measure
     for measure in COMPARED
 )
 _RACK = Measure(RACK, lambda pair: pair.rack, "axle", (), lambda pair: pair.per_turn is not None)

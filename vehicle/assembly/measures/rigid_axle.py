@@ -13,10 +13,10 @@ from ...models.rigid_axle.structure import BEAM
 from ...models.sides import LEFT, RIGHT, SIDES
 from ..whole_axle_kinematics import RigidAxleKinematics
 from . import pitching, rolling
-from .corner import GROUND, PITCH
+from .corner import GROUND
 from .measure import Measure, of_axle, of_wheel
 from .quantities import QUANTITIES
-from .whole_axle import SPRINGS, dot, is_at, signal
+from .whole_axle import SPRINGS, dot, signal
 
 
 def roll_center_height(beam: RigidAxleKinematics) -> Array:
@@ -47,9 +47,6 @@ def jacking(beam: RigidAxleKinematics) -> Array:
     velocity = beam.velocity_of(BEAM, middle, HEAVE)
     return -velocity[:, 1] / velocity[:, 2]
 
-
-_ON_AXLE = "contacts with brakes on the axle, wheel centres with inboard ones"
-_IN_AXLE = "contacts with the final drive in the axle, wheel centres with it on the body"
 
 _JACKING = replace(
     QUANTITIES["jacking"],
@@ -89,22 +86,10 @@ ON_THE_ROAD = (
         "them as the axle rolls and the middle between the contacts stays on that line",
     ),
     Measure(_JACKING, jacking, "axle", GROUND),
-    of_axle(
-        "anti_dive", pitching.braking, (*PITCH, "front_brake_share"), is_at("front"),
-        "b (L / h) v_x / v_z under braking: brake share b, wheelbase L, height h of the gravity "
-        f"centre; {_ON_AXLE}",
-    ),
-    of_axle(
-        "anti_lift_driven", pitching.driving, PITCH, is_at("front", driven=True),
-        f"d (L / h) v_x / v_z under drive: drive share d; {_IN_AXLE}",
-    ),
-    of_axle(
-        "anti_lift_braked", pitching.braking, (*PITCH, "front_brake_share"), is_at("rear"),
-        f"-(1 - b) (L / h) v_x / v_z under braking: front brake share b; {_ON_AXLE}",
-    ),
-    of_axle(
-        "anti_squat", pitching.driving, PITCH, is_at("rear", driven=True),
-        f"-d (L / h) v_x / v_z under drive: drive share d; {_IN_AXLE}",
+    *pitching.at_both_ends(
+        of_axle,
+        "contacts with brakes on the axle, wheel centres with inboard ones",
+        "contacts with the final drive in the axle, wheel centres with it on the body",
     ),
 )  # fmt: skip
 """Effects of forces of the road, by the paths of the axle."""

@@ -15,10 +15,10 @@ from ...models.sides import SENSE, SIDES
 from .. import wheel
 from ..whole_axle_kinematics import WholeAxleKinematics
 from . import axle_rolling, pitching, rolling
-from .corner import GROUND, PITCH
+from .corner import GROUND
 from .measure import Measure, of_axle, of_corner, of_wheel
 from .quantities import QUANTITIES
-from .whole_axle import SPRINGS, dot, is_at
+from .whole_axle import SPRINGS, dot
 
 _JACKING = replace(
     QUANTITIES["jacking"],
@@ -104,10 +104,7 @@ MEASURES = (
         "centres moving "
         "oppositely",
     ),
-    of_wheel("anti_dive", pitching.braking, (*PITCH, "front_brake_share"), is_at("front")),
-    of_wheel("anti_lift_driven", pitching.driving, PITCH, is_at("front", driven=True)),
-    of_wheel("anti_lift_braked", pitching.braking, (*PITCH, "front_brake_share"), is_at("rear")),
-    of_wheel("anti_squat", pitching.driving, PITCH, is_at("rear", driven=True)),
+    *pitching.at_both_ends(of_wheel),
     *SPRINGS,
     of_axle("roll_stiffness_springs", rolling.of_springs, GROUND),
     of_axle("roll_stiffness_bar", rolling.of_bar, GROUND),

@@ -11,11 +11,6 @@ from .corner import GROUND
 from .measure import of_axle, of_wheel
 
 
-def is_at(end: str, *, driven: bool = False) -> Callable[[WholeAxleKinematics], bool]:
-    """Return the condition that an axle is at an end of the vehicle, and driven if `driven`."""
-    return lambda of: of.end == end and (of.axle.drive is not None or not driven)
-
-
 def dot(one: Array, other: Array) -> Array:
     """Return the scalar products of vectors, (n,)."""
     return (one * other).sum(-1)
