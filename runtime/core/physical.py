@@ -4,7 +4,7 @@ The defaults of a declaration are checked with these functions, and every parame
 compiled model. This file depends on nothing else of the project.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -89,7 +89,7 @@ def impossible(
         found |= ~(value >= entry.get("least", -np.inf)) | ~(value > entry.get("above", -np.inf))
         found |= ~(value <= entry.get("most", np.inf))
     for _, elements in tensors(values):
-        found |= _of_no_body(_moments(elements))
+        found |= _of_no_body(np.linalg.eigvalsh(inertia_tensor(elements)))
     return found
 
 
@@ -102,14 +102,14 @@ def tensors(values: Mapping[str, Any]) -> Iterator[tuple[str, list[Any]]]:
             yield body, elements
 
 
-def _moments(elements: list[Any]) -> Array:
-    """Return the principal moments in ascending order along the last dimension."""
+def inertia_tensor(elements: Sequence[Any]) -> Array:
+    """Return inertia tensors, (..., 3, 3), from their elements in the order of `ELEMENTS`."""
     xx, yy, zz, xy, xz, yz = np.broadcast_arrays(*elements)
-    tensors = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    return np.linalg.eigvalsh(np.moveaxis(tensors, (0, 1), (-2, -1)))
+    tensors: Array = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    return np.moveaxis(tensors, (0, 1), (-2, -1))
 
 
-def _of_no_body(moments: Array) -> NDArray[np.bool_]:
+def _of_no_body(moments: NDArray[np.floating[Any]]) -> NDArray[np.bool_]:
     small, middle, large = np.moveaxis(moments, -1, 0)
     return np.minimum(small, small + middle - large) < -_ROUNDING * large
 
@@ -125,7 +125,7 @@ def _rotors(values: Mapping[str, float]) -> Iterator[tuple[str, float, float]]:
 
 def _impossible_tensors(values: Mapping[str, float]) -> Iterator[str]:
     for body, elements in tensors(values):
-        moments = _moments(elements)
+        moments = np.linalg.eigvalsh(inertia_tensor(elements))
         if _of_no_body(moments):
             small, middle, large = moments.tolist()
             yield (

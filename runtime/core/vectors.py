@@ -54,6 +54,12 @@ def unit_vector(vector: Sequence[float] | Vector) -> Vector:
     return array / hypot(*vector)
 
 
+def directions(vectors: ArrayLike) -> Vector:
+    """Return the unit vectors in the directions of vectors (..., 3), which are not zero."""
+    along = np.asarray(vectors)
+    return along / np.linalg.norm(along, axis=-1, keepdims=True)
+
+
 def angle_between_lines(first: Vector, second: Vector) -> float:
     """Return the angle between two lines [deg], 0 to 90, from any vectors along them.
 

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from ...core.named_types import Array
-from ...core.physical import ELEMENTS
-from ...core.vectors import cross
+from ...core.physical import ELEMENTS, inertia_tensor
+from ...core.vectors import cross, directions
 from ...systems.allowed import LengthLimit
 from ...systems.inputs import rates_of
 from ...systems.system import System
@@ -39,17 +39,11 @@ class PartMass:
         `name` is the prefix of its parameters in the equations. `spin_axis`, (3,), is that of a
         wheel at design: its parameters are the inertia about this axis and across it.
         """
-        tensor = (
-            _tensor(parameters, name)
-            if spin_axis is None
-            else _of_wheel(parameters, name, spin_axis)
-        )
+        if spin_axis is None:
+            tensor = inertia_tensor([parameters[f"{name}_inertia_{which}"] for which in ELEMENTS])
+        else:
+            tensor = _of_wheel(parameters, name, spin_axis)
         return cls(body, parameters[f"{name}_mass"], tensor)
-
-
-def _tensor(parameters: Mapping[str, float], name: str) -> Array:
-    xx, yy, zz, xy, xz, yz = (parameters[f"{name}_inertia_{element}"] for element in ELEMENTS)
-    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
 
 def _of_wheel(parameters: Mapping[str, float], name: str, axis: Array) -> Array:
@@ -301,8 +295,7 @@ def road_axes(left: Array) -> Array:
 
     `left` are spin axes that point left, (n, 3).
     """
-    forward = cross(left, UP)
-    forward /= np.linalg.norm(forward, axis=-1, keepdims=True)
+    forward = directions(cross(left, UP))
     return np.stack([forward, cross(UP, forward), np.broadcast_to(UP, forward.shape)], -2)
 
 

@@ -7,7 +7,7 @@ from typing import ClassVar, Self
 import numpy as np
 
 from ...core.named_types import Array
-from ...core.vectors import cross
+from ...core.vectors import cross, directions
 from ..corner.corner import UP
 from ..models.rigid_axle.axle import BeamAxle
 from ..models.rigid_axle.model import ROLL, RigidAxleModel
@@ -100,8 +100,7 @@ class RigidAxleParts(WholeAxleParts):
 
     def along(self, first: str, last: str) -> Array:
         """Return the unit vector from the last to the first point of a link, (n, 3)."""
-        way = self.points[first] - self.points[last]
-        return way / np.linalg.norm(way, axis=-1, keepdims=True)
+        return directions(self.points[first] - self.points[last])
 
     # -- its loads ------------------------------------------------------------------------------
 
@@ -131,7 +130,6 @@ def _upright_frames(way: Array) -> Array:
 
     A cross whose first axis is upright turns a rod so that its second axis stays level.
     """
-    along = way / np.linalg.norm(way, axis=-1, keepdims=True)
-    level = cross(along, np.broadcast_to(UP, along.shape))
-    level /= np.linalg.norm(level, axis=-1, keepdims=True)
+    along = directions(way)
+    level = directions(cross(along, np.broadcast_to(UP, along.shape)))
     return np.stack([along, level, cross(along, level)], axis=-1)

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...core.named_types import Array
 from ...core.quantities import variable
-from ...core.vectors import cross
+from ...core.vectors import cross, directions
 from ..corner.corner import UP
 from ..input.pitman_arm import RELAY_ROD, PitmanArmSection, PitmanLinkage
 from ..input.vehicle import Steering
@@ -121,8 +121,7 @@ def _across_the_joint(gear: PitmanLinkage, poses: PartPoses) -> Array:
     rod = gear.metres("idler_ball") - gear.metres("ball")
     first = poses.turned[ARM] @ UP
     second = poses.turned[RELAY_ROD] @ cross(rod, UP)
-    direction = cross(first, second)
-    return direction / np.linalg.norm(direction, axis=-1, keepdims=True)
+    return directions(cross(first, second))
 
 
 def _on_the_rod(wrench: Array, rod: Array, tangent: Array, across: Array) -> tuple[Array, Array]:

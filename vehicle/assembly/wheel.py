@@ -1,8 +1,9 @@
 """Formulas of the characteristics of one wheel.
 
 Each function takes a `Corner`, or a `RoadWheel` if that is sufficient, and returns an array over
-its positions, SI units. Signs are those of docs/suspension/characteristics.md. Unbounded quantities
-(the length of a swing arm about an instant centre at infinity) are infinite.
+its positions, SI units; a measure whose data are missing is not computed. Signs are those of
+docs/suspension/characteristics.md. Unbounded quantities (the length of a swing arm about an instant
+centre at infinity) are infinite.
 
 Sources: definitions of ISO 8855:2011; roll centres, swing arms and anti-dive as in W. F. Milliken
 and D. L. Milliken, Race Car Vehicle Dynamics, SAE, 1995, chapter 17; instant axes and the steering
@@ -12,7 +13,7 @@ axis as in W. Matschinsky, Road Vehicle Suspensions, Professional Engineering Pu
 import numpy as np
 
 from ...core.named_types import Array
-from ...core.vectors import cross
+from ...core.vectors import cross, directions
 from ..corner.corner import UP, CarrierMotion, Corner, RoadWheel, SteeringAxis
 
 # -- angles of the wheel --------------------------------------------------------------------------
@@ -175,26 +176,23 @@ def side_view_hub_angle(corner: Corner) -> Array:
 
 def anti_dive(corner: Corner) -> Array:
     """Return the part of the braking pitch that the front suspension reacts [1]."""
-    return _front_brake_share(corner) * _braking(corner)
+    share = corner.vehicle.front_brake_share
+    assert share is not None
+    return share * _braking(corner)
 
 
 def anti_lift_braked(corner: Corner) -> Array:
     """Return the part of the braking pitch that the rear suspension reacts [1]."""
-    return (_front_brake_share(corner) - 1.0) * _braking(corner)
-
-
-def _front_brake_share(corner: Corner) -> float:
     share = corner.vehicle.front_brake_share
-    if share is None:
-        raise _missing("front_brake_share")
-    return share
+    assert share is not None
+    return (share - 1.0) * _braking(corner)
 
 
 def _braking(corner: Corner) -> Array:
     """Return (L / h) v_Cx / v_Cz."""
     wheelbase, height = corner.vehicle.wheelbase, corner.vehicle.center_of_gravity_height
-    if wheelbase is None or height is None:
-        raise _missing("wheelbase and center_of_gravity_height")
+    assert wheelbase is not None
+    assert height is not None
     velocity = contact_velocity(corner)
     return _quotient(wheelbase / height * velocity[..., 0], velocity[..., 2])
 
@@ -235,8 +233,7 @@ def wheel_rate(corner: Corner) -> Array:
 def ride_rate(corner: Corner) -> Array:
     """Return the rate of wheel and tyre in series [N/m]."""
     tyre = corner.vehicle.tyre_rate
-    if tyre is None:
-        raise _missing("tyre_rate")
+    assert tyre is not None
     wheel = wheel_rate(corner)
     return _quotient(wheel * tyre, wheel + tyre)
 
@@ -325,9 +322,7 @@ def _offsets(corner: Corner, point: Array) -> tuple[Array, Array]:
 
 def _heading(corner: Corner) -> Array:
     """Return the horizontal unit vector of the wheel's forward direction."""
-    heading = cross(corner.vehicle.side * corner.axis, UP)
-    length: Array = np.linalg.norm(heading, axis=-1, keepdims=True)
-    return heading / length
+    return directions(cross(corner.vehicle.side * corner.axis, UP))
 
 
 def _instant_center(corner: Corner) -> tuple[Array, Array, Array]:
@@ -350,10 +345,5 @@ def _trace(point: Array, normal: Array, x: Array) -> tuple[Array, Array, Array]:
 
 
 def _radius(corner: RoadWheel) -> float:
-    if corner.vehicle.tyre_radius is None:
-        raise _missing("tyre_radius")
+    assert corner.vehicle.tyre_radius is not None
     return corner.vehicle.tyre_radius
-
-
-def _missing(what: str) -> ValueError:
-    return ValueError(f"this characteristic needs {what} of the vehicle")

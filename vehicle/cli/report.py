@@ -66,6 +66,7 @@ def command(
     """
     from ...core.files import refuse
     from ..report import ENDINGS, write, write_chapters
+    from ..studies.sweep_axes import sweep_axes_of
 
     refuse_which(file, model_name)
     target = path or Path(f"{Path(file).stem}.html")
@@ -90,7 +91,7 @@ def command(
         assembly = assembly_of_file(file)
         if assembly.body_moves:
             refuse_options("an axle or a suspension", {"--cases": cases, "--bushes": bushes})
-        aims = _aims(assembly, goals)
+        aims = wanted.read(goals, None, sweep_axes_of(assembly.subject))
         with problems.status("tables and curves") as status:
             chapters = [
                 *_chapters(
@@ -146,16 +147,6 @@ def _of_one_side(axle: "Axle") -> frozenset[str]:
     both = frozenset(measure.name for measure in BOTH)
     without = frozenset() if axle.symmetric else both
     return without if axle.end == "front" else both | {"anti_dive", "anti_lift_braked"}
-
-
-def _aims(assembly: "Assembly", path: Path | None) -> "list[Goal]":
-    from ..analysis.compliance.flexibility import HELD
-    from ..studies.sweep_axes import sweep_axes_of
-
-    known = sweep_axes_of(assembly.subject)
-    if assembly.body_moves:
-        return wanted.read(path, None, known)
-    return wanted.read(path, [*known, *HELD], known)
 
 
 def _chapters(

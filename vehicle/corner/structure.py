@@ -12,7 +12,7 @@ from typing import ClassVar
 import numpy as np
 
 from ...core.named_types import Array
-from ...core.vectors import cross
+from ...core.vectors import cross, directions
 
 Points = Mapping[str, Array]
 
@@ -73,7 +73,7 @@ class SphericalJoint(PartJoint):
 
     def axis(self, points: Points) -> Array | None:
         """Return the axis of the rod."""
-        return _unit(points[self.end] - points[self.at[0]]) if self.end else None
+        return directions(points[self.end] - points[self.at[0]]) if self.end else None
 
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
         """Return the three forces."""
@@ -108,14 +108,14 @@ class UniversalJoint(PartJoint):
 
     def axis(self, points: Points) -> Array | None:
         """Return the axis of the shaft."""
-        return _unit(points[self.shaft] - points[self.at[0]])
+        return directions(points[self.shaft] - points[self.at[0]])
 
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
         """Return three forces and a moment."""
         (center,) = self.at
         loads = np.zeros((*points[center].shape[:-1], 1, 6, 4))
         loads[..., 0, :3, :3] = np.eye(3)
-        loads[..., 0, 3:, 3] = _unit(cross(*self._axes(turned, design)))
+        loads[..., 0, 3:, 3] = directions(cross(*self._axes(turned, design)))
         return loads
 
     def right_angles(
@@ -123,7 +123,7 @@ class UniversalJoint(PartJoint):
     ) -> list[tuple[Array, Array]]:
         """Return its axes."""
         first, second = self._axes(turned, design)
-        return [(np.broadcast_to(_unit(first), second.shape), _unit(second))]
+        return [(np.broadcast_to(directions(first), second.shape), directions(second))]
 
     def _axes(self, turned: Mapping[str, Array], design: Points) -> tuple[Array, Array]:
         first, (center,) = np.array(self.first_axis), self.at
@@ -138,7 +138,7 @@ class HingeJoint(PartJoint):
 
     def axis(self, points: Points) -> Array | None:
         """Return the axis through both bearings."""
-        return _unit(points[self.at[1]] - points[self.at[0]])
+        return directions(points[self.at[1]] - points[self.at[0]])
 
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
         """Return two forces normal to the axis at each bearing, and one along it at both."""
@@ -168,7 +168,7 @@ class TelescopeJoint(PartJoint):
 
     def axis(self, points: Points) -> Array | None:
         """Return the axis of sliding."""
-        return _unit(points[self.end] - points[self.at[0]])
+        return directions(points[self.end] - points[self.at[0]])
 
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
         """Return two forces and two moments."""
@@ -211,7 +211,7 @@ class LineForce:
 
     def direction(self, points: Points) -> Array:
         """Return the unit vector from the first to the second point, (..., 3)."""
-        return _unit(points[self.at[1]] - points[self.at[0]])
+        return directions(points[self.at[1]] - points[self.at[0]])
 
 
 @dataclass(frozen=True)
@@ -263,15 +263,10 @@ def _spread(loads: Array, point: Array) -> Array:
     return np.broadcast_to(loads, (*point.shape[:-1], 1, *loads.shape))
 
 
-def _unit(vectors: Array) -> Array:
-    lengths: Array = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    return vectors / lengths
-
-
 def frame(axis: Array) -> tuple[Array, Array, Array]:
     """Return a unit vector along an axis, (..., 3), and two normal to it."""
-    along = _unit(axis)
+    along = directions(axis)
     # the chassis axis with the largest angle to it
     aside = np.eye(3)[np.abs(along).argmin(axis=-1)]
-    across = _unit(cross(along, aside))
+    across = directions(cross(along, aside))
     return along, across, cross(along, across)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core.named_types import Array
-from ...core.vectors import cross
+from ...core.vectors import cross, directions
 from ..models.model import Model
 from .curves import CharacteristicCurve, curves
 from .encode import rounded
@@ -47,8 +47,7 @@ def measure(
     def interpolated(samples: Array) -> Array:
         return grid.interpolate(as_encoded(grid, samples), travel, rack)
 
-    axis = interpolated(sampled.spin_axis)
-    axis /= np.linalg.norm(axis, axis=-1, keepdims=True)
+    axis = directions(interpolated(sampled.spin_axis))
     # from the sine, since the cosine of a small angle has no digits left
     return GridAccuracy(
         points=max(

@@ -138,15 +138,16 @@ def test_reports_of_axles_show_how_many_goals_are_missed(monkeypatch, tmp_path, 
     (tmp_path / "goals.toml").write_text(
         "[limits.camber_left]\nat_mm = [0, 40]\nmost = 9\n"
         "[limits.camber_right]\nat_mm = [0, 40]\nleast = 9\n"
-        "[targets.toe_left]\nvalue = 0.0\nwithin = 1.0\n",
+        "[targets.toe_left]\nvalue = 0.0\nwithin = 1.0\n"
+        '[limits.spring_force_left]\nover = "load"\ncase = "brake"\nmost = 1e5\n',
         encoding="utf-8",
     )
 
     def titles(*_, chapters, goals=None, **__):
         (chapter,) = (one for one in chapters if one.title == "Targets and limits")
-        assert chapter.words[0] == "2 of 3 are met, 1 missed."
+        assert chapter.words[0] == "3 of 4 are met, 1 missed."
         # the page of the axle shows its right side, of whose toe nothing else is wanted
-        names = ["toe_right", "camber_left", "camber_right"]
+        names = ["toe_right", "camber_left", "camber_right", "spring_force_left"]
         assert [goal.name for goal in goals or ()] == (names if file == "reference_axle" else [])
         return tmp_path / "report.html"
 

@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from ....core.named_types import Array
+from ....core.physical import inertia_tensor
 from ....core.vectors import cross
 from ...input.bodies import impossible_inertia
 from .keys import Part
@@ -89,9 +90,9 @@ class ChronoBody(Centre):
         }
 
     def _tensor(self) -> Array:
-        xx, yy, zz = self.moments or self.inertia or (0.0, 0.0, 0.0)
-        xy, xz, yz = self.products or (0.0, 0.0, 0.0)
-        return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+        nothing = (0.0, 0.0, 0.0)
+        moments = self.moments or self.inertia or nothing
+        return inertia_tensor([*moments, *(self.products or nothing)])
 
 
 class Spindle(Centre):

@@ -9,6 +9,8 @@ import numpy as np
 from pydantic import Field
 
 from ....core.named_types import Array
+from ....core.physical import inertia_tensor
+from ....equations import layout
 from ...input.bodies import impossible_inertia
 from .keys import Part
 from .parts import Finite, Point, elements, millimetres
@@ -63,10 +65,8 @@ class Chassis(_File):
         com = moment / mass if mass else moment
         inertia = np.zeros((3, 3))
         for one in self.components:
-            xx, yy, zz = one.moments
-            xy, xz, yz = one.products
             turned = rotation(one.frame.orientation)
-            own = turned @ np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) @ turned.T
+            own = turned @ inertia_tensor([*one.moments, *one.products]) @ turned.T
             away = np.array(one.frame.location) - com
             own = own + one.mass * (away @ away * np.eye(3) - np.outer(away, away))
             inertia = inertia - own if one.void else inertia + own
@@ -280,9 +280,7 @@ class Driveline(_File):
 
 def rotation(quaternion: _Quaternion) -> Array:
     """Return the matrix of a rotation from its quaternion, scalar first."""
-    w, *v = np.array(quaternion) / np.linalg.norm(quaternion)
-    skew = np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
-    return np.eye(3) + 2.0 * w * skew + 2.0 * skew @ skew
+    return layout.rotation(np.array(quaternion) / np.linalg.norm(quaternion))
 
 
 def is_rotation(quaternion: _Quaternion) -> bool:

@@ -18,7 +18,14 @@ import numpy as np
 from pydantic import Field
 
 from ....core.named_types import Array
-from ....core.vectors import MIRROR, angle_between_lines, cross, distance_from_line, unit_vector
+from ....core.vectors import (
+    MIRROR,
+    angle_between_lines,
+    cross,
+    directions,
+    distance_from_line,
+    unit_vector,
+)
 from ...input.hardpoints import SMALLEST_CROSS_ANGLE, SMALLEST_DISTANCE
 from ...input.section import CHECK_UNIT, NonNegative, Number, Remedy, Section, Triple
 from ...input.units import LengthUnit, in_metres, point_in_metres
@@ -323,8 +330,7 @@ class HalfBar:
         lever of a force in this direction about the bar's axis is signed [m].
         """
         top = self.top_at(turn)
-        link = top - foot
-        direction = link / np.linalg.norm(link, axis=-1, keepdims=True)
+        direction = directions(top - foot)
         arm = cross(self.axis, top - self.bush)
         return direction, np.einsum("...i,...i->...", arm, direction)
 

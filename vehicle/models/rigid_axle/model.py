@@ -89,13 +89,11 @@ class RigidAxleModel(WholeAxleModel):
         return states
 
     def moved(self, states: Array, left: Array, right: Array, inputs: Array | None = None) -> Array:
-        found = states.copy()
         with np.errstate(all="ignore"):  # of an axle that is inclined too far
             leaning = np.cos(states[..., self.state_names.index(ROLL)])
             rolling = 0.5 * (left - right) / self.axle.half_track / leaning
-        found[..., self.state_names.index(f"{HEAVE}_rate")] = 0.5 * (left + right)
-        found[..., self.state_names.index(f"{ROLL}_rate")] = rolling
-        return found
+        heaving = np.broadcast_to(0.5 * (left + right), rolling.shape)
+        return self.with_rates(states, np.stack([heaving, rolling], axis=-1))
 
     def turned(self, states: Array) -> Array:
         return np.abs(states[..., self.state_names.index(ROLL)])

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ....core.named_types import Array
 from ....core.quantities import display_of, displayed
-from ....core.vectors import cross, unit_vector
+from ....core.vectors import cross, directions, unit_vector
 from ....systems.skeleton import Skeleton
 from ...analysis.run import MovingCar, Run
 from ...corner.corner import UP
@@ -173,8 +173,7 @@ def _wheels(
         axis = start.T @ unit_vector(np.array([skew[2, 1], skew[0, 2], skew[1, 0]]))
         axes.append(np.sign(axis[1]) * axis)
     along = np.array(axes)
-    across = cross(along, UP)
-    across /= np.linalg.norm(across, axis=-1, keepdims=True)
+    across = directions(cross(along, UP))
     turned = model.evaluate("orientations", states, inputs)[:, bodies]
     return (
         model.evaluate("positions", states, inputs)[:, bodies],
@@ -191,8 +190,7 @@ def _rolled(axes: Array, spokes: Array, angles: Array) -> Array:
 
 def _forces(car: MovingCar, motion: xr.Dataset, centers: Array, axes: Array) -> tuple[Array, Array]:
     """Return the lowest points of the wheels, and the forces of the road there."""
-    forward = cross(axes, UP)
-    forward = forward / np.linalg.norm(forward, axis=-1, keepdims=True)
+    forward = directions(cross(axes, UP))
     upward = cross(forward, axes)
     contacts = centers - np.array(car.radii)[:, None] * upward
     if not car.body:
