@@ -39,22 +39,10 @@ from .solvers import (
     why_not_native,
 )
 
-Method = TypeAliasType(
-    "Method",
-    Literal[
-        "BDF",
-        "Adams",
-        "Verner",
-        "DormandPrince",
-        "RK4",
-        "RODASP",
-        "Tsitouras",
-        "Radau",
-        "LSODA",
-        "RK45",
-        "DOP853",
-    ],
-)
+Method = TypeAliasType("Method", Literal[
+    "BDF", "Adams", "Verner", "DormandPrince", "RK4", "RODASP", "Tsitouras", "Radau", "LSODA",
+    "RK45", "DOP853",
+])  # fmt: skip
 Backend = Literal["auto", "sundials", "scipy"]
 
 # Default tolerances. In 1,000 s an undamped wheel hop of 25 mm loses 0.5 % of its amplitude by BDF

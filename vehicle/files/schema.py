@@ -11,7 +11,7 @@ from ..corner.base import KIND
 from ..corner.bushes import BUSH_SCHEMA
 from ..data.starter import CAR, DEFAULT, whole_axles, words_of
 from ..input.bodies import RigidBody
-from ..input.messages import is_named
+from ..input.messages import is_named, subsection
 from ..input.section import Section
 from ..input.units import unit_of
 from ..kinds import KINDS
@@ -275,7 +275,7 @@ def page_text(manoeuvres: Manoeuvres) -> str:
         own = [
             name
             for name in axle.model_fields
-            if name not in shared or _model_of(axle, name) is not _model_of(first, name)
+            if name not in shared or subsection(axle, name) is not subsection(first, name)
         ]
         parts += [f"## {_capital(words_of(key))}\n", axle.PAGE, *_table(sections[axle.__name__])]
         parts += _described(sections, axle, own)
@@ -291,7 +291,7 @@ def page_text(manoeuvres: Manoeuvres) -> str:
 def _shared() -> set[str]:
     """Return the names of sections that two or more kinds have and that equal in all of them."""
     first, *others = (
-        {name: _model_of(kind, name) for name in kind.model_fields} for kind in KINDS.values()
+        {name: subsection(kind, name) for name in kind.model_fields} for kind in KINDS.values()
     )
     return {
         name
@@ -310,7 +310,7 @@ def _described(
     """Describe sections in a section, each with a table of its keys."""
     required = sections[model.__name__].get("required", [])
     for name in names:
-        inner = _model_of(model, name)
+        inner = subsection(model, name)
         if inner is None or name not in sections[model.__name__]["properties"]:
             continue
         title = f"{prefix}{name}" + (".NAME" if is_named(model, name) else "")
@@ -329,13 +329,6 @@ def _table(section: dict[str, Any], known: Container[str] = ()) -> Iterator[str]
     if rows:
         yield _TABLE_HEAD
         yield "\n".join(rows) + "\n"
-
-
-def _model_of(model: type[Section], name: str) -> type[Section] | None:
-    """Return the section that a key holds, or may hold; None if it holds a value."""
-    annotation = model.model_fields[name].annotation
-    kinds = (annotation, *getattr(annotation, "__args__", ()))
-    return next((k for k in kinds if isinstance(k, type) and issubclass(k, Section)), None)
 
 
 def _rows(section: dict[str, Any], known: Container[str]) -> Iterator[str]:

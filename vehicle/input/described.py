@@ -189,6 +189,29 @@ class Described:
             given.flag("force", force)
         return write_toml(self, path, force=force)
 
+    @classmethod
+    @abstractmethod
+    def _called(cls) -> str:
+        """Return the name of the object in messages."""
+
+    def _changed_data(
+        self, changes: Mapping[str, Any], parts: Iterable[str] = ()
+    ) -> tuple[dict[str, Any], dict[str, dict[str, Any]], str]:
+        """Return the sections with changes, the changes of each part, and words for messages."""
+        check_keys(self._called(), "changes", changes, "places and values")
+        data, problems = self.to_dict(), list[str]()
+        of_part: dict[str, dict[str, Any]] = {name: {} for name in parts}
+        for place, value in changes.items():
+            section, _, key = place.partition(".")
+            if section in of_part and key:
+                of_part[section][key] = value
+            elif problem := put(data, place, value):
+                problems.append(problem)
+        source = f"{self._called()} with changed {', '.join(changes)}"
+        if problems:
+            raise InputError(problems, source)
+        return data, of_part, source
+
 
 class DescribedParts(Described):
     """An object whose file names the files of its parts."""
@@ -200,6 +223,10 @@ class DescribedParts(Described):
     @classmethod
     def packaged(cls) -> Mapping[str, Traversable]:
         return data_sets(cls.PACKAGE)
+
+    @classmethod
+    def _called(cls) -> str:
+        return cls.KEY
 
     @classmethod
     def _of_file(cls, data: Mapping[str, Any], source: str, folder: Path) -> Self:
@@ -246,23 +273,6 @@ class DescribedParts(Described):
     @abstractmethod
     def _of_parts(cls, described: Any, folder: Path, source: str) -> Self:
         """Return an object from its own file, whose parts are in a folder."""
-
-    def _changed_data(
-        self, changes: Mapping[str, Any], parts: Iterable[str]
-    ) -> tuple[dict[str, Any], dict[str, dict[str, Any]], str]:
-        """Return the sections with changes, the changes of each part, and words for messages."""
-        data, problems = self.to_dict(), list[str]()
-        of_part: dict[str, dict[str, Any]] = {name: {} for name in parts}
-        for place, value in changes.items():
-            section, _, key = place.partition(".")
-            if section in of_part and key:
-                of_part[section][key] = value
-            elif problem := put(data, place, value):
-                problems.append(problem)
-        source = f"{self.KEY} with changed {', '.join(changes)}"
-        if problems:
-            raise InputError(problems, source)
-        return data, of_part, source
 
 
 class DescribedSection(Described, Section):
@@ -313,19 +323,8 @@ class DescribedSection(Described, Section):
         >>> stiffer.hardpoints.ball_joint
         (5.0, -710.0, 185.0)
         """
-        said = self._called()
-        check_keys(said, "changes", changes, "places and values")
-        data = self.to_dict()
-        source = f"{said} with changed {', '.join(changes)}"
-        problems = [problem for place in changes if (problem := put(data, place, changes[place]))]
-        if problems:
-            raise InputError(problems, source)
+        data, _, source = self._changed_data(changes)
         for section in filter(partial(is_named, type(self)), data):
             if isinstance(data[section], dict):
                 data[section] = {n: v for n, v in data[section].items() if v is not None}
         return self.from_dict(data, source)
-
-    @classmethod
-    @abstractmethod
-    def _called(cls) -> str:
-        """Return the name of the object in messages."""

@@ -11,13 +11,12 @@ import numpy as np
 from ....core.errors import InputError
 from ....core.named_types import Array
 from ....core.suggestions import suggestion
-from ....core.validator import Validator
 from ....core.vectors import components, unit_vector
 from ....systems.allowed import LengthLimit
 from ...corner.bushes import RACK
 from ...data import data_sets
 from ...data.starter import AXLE, AXLES, CAR, not_of_a_suspension, whole_axle_in
-from ...input.described import DescribedParts, check_keys, described_by, parts_of
+from ...input.described import DescribedParts, described_by, parts_of
 from ...input.pitman_arm import PitmanLinkage
 from ...input.vehicle import GravitySection, Steering, TyreSection, VehicleSection
 from ...kinds import Suspension
@@ -173,11 +172,9 @@ class Axle(DescribedParts):
         >>> lower.left.hardpoints.ball_joint[2], lower.right.hardpoints.ball_joint[2]
         (190.0, 180.0)
         """
-        check_keys("axle", "changes", changes, "places and values")
-        with Validator("axle") as checked:
-            if not self.symmetric and any(key.startswith("side.") for key in changes):
-                checked.fail("side: the file gives right and left. Name one of these.")
         data, of_side, source = self._changed_data(changes, ("side", RIGHT, LEFT))
+        if of_side["side"] and not self.symmetric:
+            raise InputError(["side: the file gives right and left. Name one of these."], "axle")
         apart = self._changed(of_side)
         if self.symmetric and not (of_side[RIGHT] or of_side[LEFT]):
             apart = {"side": apart[self.bar_side]}

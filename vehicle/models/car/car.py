@@ -14,7 +14,7 @@ from ....core.physical import ELEMENTS
 from ....core.validator import Validator, shown
 from ...data import data_sets
 from ...data.starter import AXLE, AXLES, CAR, CARS, WHOLE_AXLES, whole_axle_in, whole_axles
-from ...input.described import DescribedParts, check_keys, described_by, parts_of
+from ...input.described import DescribedParts, described_by, parts_of
 from ...input.toml_file import read_toml
 from ...input.units import in_metres, point_in_metres
 from ...kinds import Suspension
@@ -147,7 +147,6 @@ class Car(DescribedParts):
         >>> car.with_changes({"body.mass_kg": 400.0}).described.body.mass_kg
         400.0
         """
-        check_keys("car", "changes", changes, "places and values")
         data, of_part, source = self._changed_data(changes, self.parts)
         data |= {name: part for name, part in self.parts.items() if name not in changes}
         for name, own in of_part.items():
