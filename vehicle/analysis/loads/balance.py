@@ -5,7 +5,6 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.elimination import Entries, eliminated
 from ....core.named_types import Array
 from ....core.threads import in_one_thread
 
@@ -26,50 +25,13 @@ def balanced(matrix: Array, applied: Array) -> tuple[Array, NDArray[np.bool_]]:
     shape (..., m) or (..., m, cases).
     """
     several = applied.ndim == matrix.ndim
-    found = _solution(matrix, _with_probes(applied if several else applied[..., None]))
-    sound = _sound(np.abs(matrix).sum(-2).max(-1), found)
-    return found[..., :-_PROBES] if several else found[..., 0], sound
-
-
-def balanced_at_many(entries: Entries, applied: Array) -> tuple[Array, NDArray[np.bool_]]:
-    """Return the same as `balanced` for sparse equations at n positions.
-
-    Non-zero entries of the matrix have the shape (n,), loads (n, m) or (n, m, cases).
-    """
-    several = applied.ndim == 3
-    right = _with_probes(applied if several else applied[..., None])
-    columns, accurate = eliminated(entries, np.ascontiguousarray(np.moveaxis(right, 0, -1)))
-    found = np.moveaxis(columns, -1, 0)
-    if not accurate.all():
-        size = right.shape[-2]
-        found[~accurate] = _solution(dense(entries, (size, size), ~accurate), right[~accurate])
-    sums = np.zeros((right.shape[-2], len(right)))
-    for (_, column), values in entries.items():
-        sums[column] += np.abs(values)
-    return found[..., :-_PROBES] if several else found[..., 0], _sound(sums.max(axis=0), found)
-
-
-def dense(
-    entries: Entries, shape: tuple[int, int], where: NDArray[np.bool_] | slice = slice(None)
-) -> Array:
-    """Return matrices, (positions, *shape), of their entries."""
-    matrix = np.zeros((len(next(iter(entries.values()))[where]), *shape))
-    for (row, column), values in entries.items():
-        matrix[:, row, column] = values[where]
-    return matrix
-
-
-def _with_probes(applied: Array) -> Array:
-    """Return right-hand sides, (..., m, cases), followed by the random ones."""
-    probes = np.broadcast_to(_probes(applied.shape[-2]), (*applied.shape[:-1], _PROBES))
-    return np.concatenate([-applied, probes], axis=-1)
-
-
-def _sound(size: Array, found: Array) -> NDArray[np.bool_]:
-    """Return where equations of some norm are sound; elsewhere solutions become NaN."""
-    sound: NDArray[np.bool_] = size * np.abs(found[..., -_PROBES:]).max((-2, -1)) < _WORST_CONDITION
+    right = -(applied if several else applied[..., None])
+    probes = np.broadcast_to(_probes(right.shape[-2]), (*right.shape[:-1], _PROBES))
+    found = _solution(matrix, np.concatenate([right, probes], axis=-1))
+    size, inverse = np.abs(matrix).sum(-2).max(-1), np.abs(found[..., -_PROBES:]).max((-2, -1))
+    sound: NDArray[np.bool_] = size * inverse < _WORST_CONDITION
     found[~sound] = np.nan
-    return sound
+    return found[..., :-_PROBES] if several else found[..., 0], sound
 
 
 @cache

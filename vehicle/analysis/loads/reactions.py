@@ -10,16 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.named_types import Array
-from ....core.vectors import cross
 from ...assembly.load import Load, along_line
 from ...assembly.part_poses import CONTACT, PartPoses, touching, wrench_about
 from ...corner.corner import UP
 from ...corner.structure import GROUND
 from ...models.reach import PositionError
-from .balance import DEAD_POINT, balanced, balanced_at_many, dense
+from .balance import DEAD_POINT, balanced
 
-# With more positions, one sparse elimination for all takes less time than a dense one for each.
-_MANY = 200
+# Positions whose equations are in memory together: 0.1 GB for the two wheels of an axle.
+_TOGETHER = 2000
 
 
 class BalanceEquations:
@@ -48,37 +47,28 @@ class BalanceEquations:
         held = [self.pushed(line) for line in holding] or [*upward]
         rows, unknowns = 6 * len(self.parts), sum(u.shape[-1] for u in self._units) + len(held)
         self._shape = (rows, unknowns)
-        self._entries = self._of_joints() | self._last([self.applied(loads) for loads in held])
+        self._held = [self.applied(loads) for loads in held]
         self.indeterminate = np.zeros((len(poses.states), unknowns, 0))
         if unknowns > rows:
-            self.indeterminate = np.linalg.svd(self._dense())[2][..., rows:, :].mT
+            self.indeterminate = np.linalg.svd(self._matrix(slice(None)))[2][..., rows:, :].mT
 
-    def _of_joints(self) -> dict[tuple[int, int], Array]:
-        """Return the non-zero entries of the columns of the joints."""
-        found: dict[tuple[int, int], Array] = {}
+    def _matrix(self, some: slice) -> Array:
+        """Return the matrices at some positions, (n, 6 parts, unknowns)."""
+        matrix = np.zeros((len(self.poses.states[some]), *self._shape))
         first = 0
         for joint, units in zip(self.joints, self._units, strict=True):
+            columns = slice(first, first + units.shape[-1])
             for i, point in enumerate(joint.at):
-                at_point = np.ascontiguousarray(np.moveaxis(units[:, i], 0, -1))
+                at, loads = self.poses.points[point][some, None], units[some, i].mT
                 for part, sign in ((joint.second, 1.0), (joint.first, -1.0)):
-                    if part in GROUND:
-                        continue
-                    moved = sign * _about(self.poses, part, point, at_point)
-                    begin = self._rows[part].start
-                    for row, column in np.argwhere(moved.any(axis=-1)).tolist():
-                        at, values = (begin + row, first + column), moved[row, column]
-                        found[at] = found[at] + values if at in found else values
-            first += units.shape[-1]
-        return found
-
-    def _last(self, held: list[Array]) -> dict[tuple[int, int], Array]:
-        """Return the non-zero entries of the last columns, of the forces that hold the wheels."""
-        first = self._shape[1] - len(held)
-        return {
-            (int(row), first + place): loads[:, row]
-            for place, loads in enumerate(held)
-            for row in np.flatnonzero(loads.any(axis=0))
-        }
+                    if part not in GROUND:
+                        center = self.poses.centers[part][some, None]
+                        moved = wrench_about(center, at, loads[..., :3], loads[..., 3:])
+                        matrix[:, self._rows[part], columns] += sign * moved.mT
+            first = columns.stop
+        for column, held in enumerate(self._held, first):
+            matrix[..., column] = held[some]
+        return matrix
 
     def solve(self, applied: Array) -> Array:
         """Return the unknowns under loads on the parts, (n, 6 parts) or (n, 6 parts, cases).
@@ -95,16 +85,18 @@ class BalanceEquations:
 
     def solved(self, applied: Array) -> tuple[Array, NDArray[np.bool_]]:
         """Return the unknowns under loads on the parts, NaN at dead points, and where they hold."""
-        if self.indeterminate.shape[-1] == 0 and len(applied) >= _MANY:
-            return balanced_at_many(self._entries, applied)
-        matrix = np.concatenate([self._dense(), self.indeterminate.mT], axis=-2)
-        shape = list(applied.shape)
-        shape[1] = self.indeterminate.shape[-1]
-        return balanced(matrix, np.concatenate([applied, np.zeros(shape)], axis=1))
+        pieces = [
+            slice(begin, begin + _TOGETHER) for begin in range(0, max(len(applied), 1), _TOGETHER)
+        ]
+        found, sound = zip(*(self._solved(applied[some], some) for some in pieces), strict=True)
+        return np.concatenate(found), np.concatenate(sound)
 
-    def _dense(self) -> Array:
-        """Return the matrices, (n, 6 parts, unknowns)."""
-        return dense(self._entries, self._shape)
+    def _solved(self, applied: Array, some: slice) -> tuple[Array, NDArray[np.bool_]]:
+        """Return the same at some positions, for loads at these."""
+        besides = self.indeterminate[some].mT
+        matrix = np.concatenate([self._matrix(some), besides], axis=-2)
+        none = np.zeros((len(applied), besides.shape[-2], *applied.shape[2:]))
+        return balanced(matrix, np.concatenate([applied, none], axis=1))
 
     def applied(self, loads: list[Load]) -> Array:
         """Return loads as a vector, (n, 6 parts)."""
@@ -142,11 +134,3 @@ class BalanceEquations:
             carried = unknowns[:, column : column + units.shape[-1]]
             column += units.shape[-1]
             yield np.einsum("npru,nuc->nprc", units, carried)
-
-
-def _about(poses: PartPoses, part: str, point: str, units: Array) -> Array:
-    """Return unit loads at a point, (6, units, n), as forces and moments about a centre of mass."""
-    arm = poses.points[point] - poses.centers[part]
-    forces, moments = units[:3], units[3:]
-    turning = cross(arm, np.moveaxis(forces, 0, -1))
-    return np.concatenate([forces, moments + np.moveaxis(turning, -1, 0)])
