@@ -138,7 +138,7 @@ def _of_command(error: InputError, ctx: Any) -> InputError:
         name, option, rest = _ARGUMENT.fullmatch(problem).groups()  # type: ignore[union-attr]  # it fits all texts
         known = name if name.startswith("--") else options.get(name) if name in given else ""
         if option := option or known:
-            return f"{option}{rest.replace(' = ', ' ', 1)}"
+            return option + re.sub("^ = ", " ", rest)
         return problem if words.isidentifier() else f"{words}: {problem}"
 
     problems = [renamed(problem) for problem in error.problems]
