@@ -140,8 +140,13 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=lambda item: places.get(item.path.name, len(places)))
 
 
-def pytest_configure() -> None:
-    """Switch off Python's search for cycles of objects, which visits all derived expressions."""
+def pytest_configure(config: pytest.Config) -> None:
+    """Switch off Python's search for cycles of objects, which visits all derived expressions.
+
+    Refuse to store messages in several processes, of which each would write the file.
+    """
+    if config.getoption("--update-messages") and config.getoption("numprocesses", None):
+        raise pytest.UsageError("--update-messages needs one process: leave out -n")
     gc.disable()
 
 

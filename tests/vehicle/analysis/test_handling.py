@@ -282,6 +282,13 @@ def test_braking_and_coasting_follow_newton(car):
     expected = torque / (height * car.mass + 4.0 / 0.29)
     assert float(found["mean_deceleration"]) == pytest.approx(expected, rel=0.02)
     assert float(found["lateral_deviation"]) < 1e-9
+    assert found["locked_wheels"] == 0
+
+
+def test_locked_wheels_are_counted(car):
+    found = run(car, "braking", speed_km_per_h=40.0, deceleration_m_per_s2=14.0).metrics
+    assert found["locked_wheels"] >= 2
+    assert found["mean_deceleration"] < 12.0
 
 
 def test_braking_in_a_turn_begins_in_the_turn(car):

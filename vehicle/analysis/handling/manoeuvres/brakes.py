@@ -7,14 +7,20 @@ from pydantic import Field
 
 from .....core.errors import InputError
 from .....core.units import KM_PER_H
-from ....input.section import NonNegative, Number, Positive, Remedy
+from ....input.section import NonNegative, Positive, Remedy
+from ....input.section import Number as Value
 from ....models.car.car import Car
 from ..car import DrivingCar
 from ..subject import require_controls
+from .manoeuvre import Number
 from .simulated import UntilSpeed
 
+# Slip below which a wheel counts as locked: it is -1 where a wheel stands still, and a tyre with
+# relaxation reaches that after a distance.
+_LOCKED = -0.99
+
 _Pedal = Annotated[
-    Number, Field(gt=0.0, le=1.0), Remedy("Enter 1 for the whole torque, 0.5 for half of it.")
+    Value, Field(gt=0.0, le=1.0), Remedy("Enter 1 for the whole torque, 0.5 for half of it.")
 ]
 
 
@@ -60,6 +66,11 @@ class BrakingManoeuvre(UntilSpeed):
             problem = f"{words}the grade alone has {by_grade:.2f} m/s^2. Choose more."
             raise InputError([problem], self.TITLE)
         return found
+
+    def locking(self, motion: xr.Dataset) -> dict[str, Number]:
+        """Return the number of wheels that lock: the deceleration then is that of the tyres."""
+        locked = (motion["slip"] < _LOCKED).any("time").sum()
+        return {"locked_wheels": (float(locked), "number of wheels that lock", "1")}
 
     def refuse_without_end(self, motion: xr.Dataset) -> None:
         """Raise an error for a motion whose last speed is above that of its end."""

@@ -54,4 +54,5 @@ class StraightBraking(BrakingManoeuvre):
                 float(-motion["slip"].min()), "greatest braking slip of a wheel", "1"
             ),
         }  # fmt: skip
-        return HandlingResult(self.judged(numbers | greatest(motion)), {"": motion})
+        numbers |= self.locking(motion) | greatest(motion)
+        return HandlingResult(self.judged(numbers), {"": motion})

@@ -35,7 +35,8 @@ class BrakingInTurn(BrakingManoeuvre, TurningManoeuvre):
         pushes = Braking(turn.unknowns["drive"], self.pedal_of(car), self.start_s, self.rise_s)
         motion = self.held(car, turn, pushes, self.duration_s, progress)
         self.refuse_without_end(motion)
-        return HandlingResult(self.judged(self._numbers(motion) | greatest(motion)), {"": motion})
+        numbers = self._numbers(motion) | self.locking(motion) | greatest(motion)
+        return HandlingResult(self.judged(numbers), {"": motion})
 
     def _steady(self, car: DrivingCar) -> Steady:
         """Return the turn at the beginning."""
