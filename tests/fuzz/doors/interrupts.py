@@ -56,8 +56,12 @@ LONG = (
     ("mechanism", "topology", "mechanism.py"),
 )
 NAMES = ("a.csv", "a.png", "a.toml", "a.html", "a.gif", "a.md")
-# What a process runs: it says when it has begun.
-_BEGIN = "import kintrafo.__main__ as m; print('begun', flush=True); m.run()"
+# What a process runs: it says when it has begun. Shells start what is in the background with
+# Ctrl-C ignored, tests too.
+_BEGIN = (
+    "import signal; signal.signal(signal.SIGINT, signal.default_int_handler); "
+    "import kintrafo.__main__ as m; print('begun', flush=True); m.run()"
+)
 
 
 @cache
