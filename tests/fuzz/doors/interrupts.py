@@ -56,8 +56,8 @@ LONG = (
     ("mechanism", "topology", "mechanism.py"),
 )
 NAMES = ("a.csv", "a.png", "a.toml", "a.html", "a.gif", "a.md")
-# What a process runs: it says when it has begun. Shells start what is in the background with
-# Ctrl-C ignored, tests too.
+# The program of a process, which prints a line when it begins. A test run in the background of a
+# shell ignores Ctrl-C, and so would its processes.
 _BEGIN = (
     "import signal; signal.signal(signal.SIGINT, signal.default_int_handler); "
     "import kintrafo.__main__ as m; print('begun', flush=True); m.run()"

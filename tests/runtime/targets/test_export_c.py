@@ -133,7 +133,7 @@ def test_what_cannot_be_used_is_refused(tmp_path, refused):
 
 
 def test_a_folder_with_other_files_is_left_alone(tmp_path, refused):
-    system, folder = system_named("four_bar"), tmp_path / "work"
+    system, folder = system_named("four_bar"), tmp_path / "own"
     folder.mkdir()
     (folder / "thesis.tex").write_text("a year of work")
     for force in (False, True):
